@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -26,6 +26,8 @@ Told = tuple[str, Origin | None]  # the debug groups that a pair belongs to ("ou
 
 class LateVertices(Protocol):
     """Vertices of pairs, whose arrays are made when they are drawn."""
+
+    primitive: Any  # which has the numbers
 
     def vertices(self) -> Vertices:
         """Return them."""
@@ -68,6 +70,12 @@ class JoinedPairs:
         """Replace the last part by one to which pairs can be added."""
         self.parts[-1] = self.parts[-1][0], vertices
 
+    def replace_primitive(self, primitive: Any) -> None:
+        """Let the last part, whose arrays are not made yet, have the numbers of another primitive."""
+        late = self.parts[-1][1]
+        assert not isinstance(late, Vertices)
+        late.primitive = primitive
+
     @property
     def takes_more(self) -> bool:
         """Whether another pair can be joined: only after complete primitives."""
@@ -80,7 +88,7 @@ class JoinedPairs:
 
     def commands(self) -> list[Draw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
-        if len(self.parts) == 1 and self.parts[0][1] is self.first.vertices:
+        if len(self._counts) == 1:
             return [self.first]
         parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
         groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]

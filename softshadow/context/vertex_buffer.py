@@ -6,7 +6,9 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
+from operator import itemgetter
 from typing import Any, Protocol
 
 import numpy as np
@@ -33,16 +35,17 @@ class Waiting(Protocol):
 
 
 class Primitive:
-    """The vertices between glBegin and glEnd.
+    """The vertices between glBegin and glEnd, and before them those of the pairs that are drawn together with this one.
 
     A vertex costs four numbers; its attributes are stored when they change. So glVertex after glVertex is cheap, and
-    an array of attributes is made once, at glEnd.
+    an array of attributes is made once, when the vertices are drawn.
 
     Attributes
     ----------
     from_list : bool         glBegin was called by a display list
     continued : bool         a part of the primitive has already been submitted
     positions : list         x, y, z, w of each vertex
+    start : int              how many of these numbers belong to pairs before
     changes : dict           "color", "texcoord0", "front.diffuse" ...: (length of `positions`, value) of each change;
                              the first one has length 0. Attributes without an entry have their current value.
     materials : frozenset    names of the materials that the vertices carry
@@ -64,6 +67,7 @@ class Primitive:
         "mode",
         "position_size",
         "positions",
+        "start",
         "steady",
         "waiting",
     )  # fmt: skip
@@ -75,7 +79,7 @@ class Primitive:
         self.steady: dict[str, int] = {}
         self.arrays: Mapping[str, np.ndarray] = {}
         self.waiting: Waiting | None = None
-        self.continued, self.position_size, self.limit, self.counted = False, 0, 0, 0
+        self.continued, self.position_size, self.limit, self.counted, self.start = False, 0, 0, 0, 0
 
     def __len__(self) -> int:
         return len(self.positions) // 4
@@ -108,6 +112,18 @@ class Primitive:
         components += value * ((len(self.positions) - start) // 4)
         return components
 
+    def split(self) -> Primitive:
+        """Move the vertices of the pairs before to a primitive of their own, and return it."""
+        before, start = Primitive(self.mode, self.from_list, self.materials), self.start
+        before.positions, self.positions = self.positions[:start], self.positions[start:]
+        for name, changes in self.changes.items():
+            n_before = bisect_left(changes, start, key=itemgetter(0))
+            before.changes[name] = changes[:n_before]
+            first = (start, changes[n_before - 1][1])  # what the pair began with, unless it is changed there
+            self.changes[name] = [(place - start, value) for place, value in (first, *changes[n_before:])]
+        self.limit, self.counted, self.start = self.limit - start, self.counted - start // 4, 0
+        return before
+
     def select(self, vertices: Sequence[int]) -> None:
         """Keep these vertices, in this order; the attributes of those that follow stay."""
         for name, changes in self.changes.items():
@@ -128,6 +144,7 @@ class VertexBuffer:
     n_vertices : int         number of vertices collected since the last submission
     used_bytes : int         bytes of the buffer before these vertices
     joined_pairs : JoinedPairs or None    those that are not drawn yet, since more may follow
+    paused : Primitive or None    the last of them, if the next pair of its mode may add its vertices to it
     pairs : CollectedPairs   glBegin ... glEnd pairs since the last submission
     driver_draw : DriverDraw the driver's draw that the next pair of the same mode belongs to
 
@@ -143,6 +160,7 @@ class VertexBuffer:
         self.active_sizes: dict[str, int] = {}
         self.n_vertices, self.used_bytes = 0, 0
         self.joined_pairs: JoinedPairs | None = None
+        self.paused: Primitive | None = None
         self.pairs, self.driver_draw = CollectedPairs(), NO_DRAW
 
     @property
@@ -172,6 +190,12 @@ class VertexBuffer:
         self.draw_joined_pairs()
         self.joined_pairs = JoinedPairs(first, n_vertices)
 
+    def split(self, primitive: Primitive) -> None:
+        """Leave the pairs before an open one, with which it began, to be drawn without it."""
+        assert self.joined_pairs is not None
+        self.joined_pairs.replace_primitive(primitive.split())
+        self.paused = None
+
     def end_pair(self, mode: int, vertices: int) -> None:
         """Count a glBegin ... glEnd pair; draw if it is empty and of another mode, or the 64th."""
         if not vertices and self.pairs.mode != mode:
@@ -182,7 +206,7 @@ class VertexBuffer:
 
     def draw_joined_pairs(self) -> None:
         """Draw the joined pairs, if there are any."""
-        joined, self.joined_pairs = self.joined_pairs, None
+        joined, self.joined_pairs, self.paused = self.joined_pairs, None, None
         if joined is not None:
             for command in joined.commands():
                 self.draw(command)

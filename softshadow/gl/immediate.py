@@ -15,7 +15,7 @@ from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
-from softshadow.gl.pair_numbers import collect_pair
+from softshadow.gl.pair_numbers import add_resumed, collect_pair, resume
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.geometry.separate import SEPARABLE
@@ -37,6 +37,9 @@ def can_draw(context: Context, operation: str) -> bool:
 def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = thread.context
+    paused = context.vertex_buffer.paused
+    if paused is not None and paused.mode == mode and resume(context, paused):
+        return
     try:
         if not (context.ready or is_allowed(context, glBegin, mode)):
             return
@@ -64,18 +67,20 @@ def glEnd() -> None:
             context.set_attribute(name, primitive.values(name, None)[0])
     if context.groups["lighting"].fields["color_material"]:
         follow_color(context)
-    if not primitive.positions:
+    count = (len(primitive.positions) - primitive.start) // 4
+    if not count:
         context.vertex_buffer.end_pair(primitive.mode, 0)
         return
     context.pending.reset_due = context.pending.has_vertices = True
     end(context, primitive)
-    count = len(primitive)
     if primitive.from_list and context.list_depth > 0:
         context.draw(primitive.mode, vertices_of(context, primitive), consecutive_indices(count))
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
-    if mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
+    if primitive.start and add_resumed(context, mode, primitive, count):
+        pass
+    elif mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
         collect_pair(context, mode, primitive)
     else:
         context.draw_primitive(mode, vertices_of(context, primitive))
@@ -215,10 +220,12 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
     if context is None or not can_draw(context, "glRectf"):
         return
     hypot(x1, y1, x2, y2)  # the quickest question whether these are numbers
-    begin(context, gl.GL_QUADS)
+    paused = context.vertex_buffer.paused
+    if paused is None or paused.mode != gl.GL_QUADS or not resume(context, paused):
+        begin(context, gl.GL_QUADS)
     primitive = context.primitive
     assert primitive is not None
-    if primitive.position_size == 2 and primitive.limit > 16:
+    if primitive.position_size == 2 and primitive.limit > len(primitive.positions) + 16:
         primitive.positions += (x1, y1, 0.0, 1.0, x2, y1, 0.0, 1.0, x2, y2, 0.0, 1.0, x1, y2, 0.0, 1.0)
     else:
         for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):

@@ -1,16 +1,15 @@
-"""Vertices of glBegin ... glEnd pairs that are drawn together: their numbers become arrays when they are drawn.
+"""glBegin ... glEnd pairs that are drawn together: their numbers become arrays when they are drawn.
 
-A program that draws each tile or face between a glBegin and a glEnd of its own makes many pairs of a few vertices.
+A program that draws each tile or face between a glBegin and a glEnd of its own makes many pairs of a few vertices. The
+vertices of such pairs are those of one `Primitive`: its pair pauses at glEnd, and is resumed by the next glBegin.
 """
 
 from __future__ import annotations
 
-import numpy as np
-
 from softshadow.context import Context, Primitive
-from softshadow.frozen import create
-from softshadow.gl.constant_attributes import Carried, carried_of, kept_constants
-from softshadow.gl.vertex_format import NONE, vertices_of
+from softshadow.context.joined_pairs import Told
+from softshadow.gl.constant_attributes import carried_of
+from softshadow.gl.vertex_format import vertices_of
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
 
@@ -18,93 +17,88 @@ FEW = 64  # vertices of a pair whose numbers wait; arrays for more cost little i
 
 
 class PairNumbers:
-    """The numbers of pairs that carry the same attributes, one pair after the other.
+    """The vertices of pairs that are not drawn yet.
 
-    Parameters
-    ----------
-    context : Context
-    first : Vertices             the vertices of the first pair
-    carried : Carried            which attributes all vertices carry; the others are the current values
+    Which attributes they carry, and the current values of the others, stay as they are until then: a change of these
+    draws what is collected first.
     """
 
-    __slots__ = ("_carried", "_color", "_columns", "_context", "_normal", "_positions", "_texcoords")
+    __slots__ = ("_context", "primitive")
 
-    def __init__(self, context: Context, first: Vertices, carried: Carried) -> None:
-        self._context, self._carried = context, carried
-        self._color, self._normal = context.current.color, context.current.normal
-        self._texcoords = kept_constants(context).find_texcoords(context, carried.units)
-        self._positions: list[float] = first.position.reshape(-1).tolist()
-        rows = {name: first.texcoords[unit] for unit, name in carried.units}
-        rows.update(color=first.color, normal=first.normal)
-        self._columns: dict[str, list[float]] = {name: rows[name].reshape(-1).tolist() for name in carried.columns}
-
-    def add(self, primitive: Primitive) -> None:
-        """Add the numbers of another pair."""
-        self._positions += primitive.positions
-        for name, numbers in self._columns.items():
-            numbers += primitive.components(name, self._context.attribute(name))
+    def __init__(self, context: Context, primitive: Primitive) -> None:
+        self._context, self.primitive = context, primitive
 
     def vertices(self) -> Vertices:
         """Return the vertices of all pairs."""
-        carried, kept = self._carried, kept_constants(self._context)
-        count = len(self._positions) // 4
-
-        def rows(name: str, width: int = 4) -> np.ndarray:
-            return self._context.packed(self._columns[name], count, width)
-
-        texcoords = self._texcoords.rows(count)
-        for unit, name in carried.units:
-            texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
-        color, normal = (
-            rows("color") if carried.color else kept.latest_color.of(self._context, self._color, count),
-            rows("normal", 3) if carried.normal else kept.latest_normal.of(self._context, self._normal, count),
-        )
-        return create(
-            Vertices,
-            position=self._context.packed(self._positions, count, 4),
-            color=color,
-            normal=normal,
-            texcoords=texcoords,
-            materials=NONE,
-            edges=None,
-            secondary=None,
-            fog_coordinates=None,
-        )
+        return vertices_of(self._context, self.primitive)
 
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     """Collect a pair, to draw it together with pairs that follow."""
-    buffer, count = context.vertex_buffer, len(primitive.positions) // 4
-    if not buffer.can_join(mode):
-        buffer.begin_joined_pairs(context.draw_command(mode, vertices_of(context, primitive)), count)
-        return
+    buffer, count, vertices = context.vertex_buffer, len(primitive.positions) // 4, vertices_of(context, primitive)
+    if buffer.can_join(mode):
+        joined = buffer.joined_pairs
+        assert joined is not None
+        joined.add(_told(context), vertices, count)
+    else:
+        buffer.begin_joined_pairs(context.draw_command(mode, vertices), count)
+    can_pause = count <= FEW and mode == primitive.mode and primitive.position_size and not primitive.arrays
+    is_listed = primitive.from_list or context.executes_list
+    buffer.paused = primitive if can_pause and not is_listed else None
+
+
+def resume(context: Context, paused: Primitive) -> bool:
+    """Begin a pair whose vertices follow those of the paused one; return False, and do nothing, if it has its own."""
+    if context.primitive is not None or not (paused.start or _let_wait(context, paused)):
+        return False
+    place, current = len(paused.positions), context.current.__dict__
+    for name, changes in paused.changes.items():
+        value = current[name] if name in current else context.attribute(name)
+        if value is not changes[-1][1]:
+            changes.append((place, value))
+    paused.start = place
+    context.primitive, context.ready = paused, False
+    return True
+
+
+def _let_wait(context: Context, paused: Primitive) -> bool:
+    """Replace the arrays of a pair by its numbers, so that others can follow; return whether it can be done.
+
+    They can if they have no more attributes than all `Vertices` have.
+    """
+    buffer, current = context.vertex_buffer, context.current
+    joined, carried = buffer.joined_pairs, carried_of(tuple(buffer.sizes))
+    assert joined is not None
+    has_more = current.secondary != BLACK or current.fog_coordinate or not current.edge
+    if carried.optional or paused.materials or has_more or not joined.takes_more:
+        buffer.paused = None
+        return False
+    vertices = joined.parts[-1][1]
+    assert isinstance(vertices, Vertices)
+    rows = {name: vertices.texcoords[unit] for unit, name in carried.units}
+    rows.update(color=vertices.color, normal=vertices.normal)
+    for name in carried.columns:
+        if name not in paused.changes:  # then all its vertices have the same value
+            paused.changes[name] = [(0, tuple(rows[name][0].tolist()))]
+    paused.waiting = None  # the maps of evaluators can be others now
+    joined.replace_last(PairNumbers(context, paused))
+    return True
+
+
+def add_resumed(context: Context, mode: int, primitive: Primitive, count: int) -> bool:
+    """Add a resumed pair to those before it; return False, with a primitive of its own, if it is not like them."""
+    buffer = context.vertex_buffer
     joined = buffer.joined_pairs
     assert joined is not None
-    told = "/".join(context.labels) if context.labels else "", context.origin
-    last, carried = joined.last(told), carried_of(tuple(buffer.sizes))
-    are_many = count > FEW or (isinstance(last, Vertices) and len(last.position) > FEW)
-    if last is None or are_many or not _is_plain(context, carried, primitive):
-        joined.add(told, vertices_of(context, primitive), count)
-        return
-    if isinstance(last, Vertices):
-        last = PairNumbers(context, last, carried)
-        joined.replace_last(last)
-    assert isinstance(last, PairNumbers)
-    last.add(primitive)
+    if mode != primitive.mode or joined.last(_told(context)) is None:
+        buffer.split(primitive)
+        return False
     joined.count(count)
+    if not joined.takes_more:
+        buffer.paused = None
+    return True
 
 
-def _is_plain(context: Context, carried: Carried, primitive: Primitive) -> bool:
-    """Return whether vertices have no more attributes than all `Vertices` have.
-
-    Those of the pair before then have the same ones: a change of which attributes vertices carry, or of one that they
-    do not carry, submits what is collected.
-    """
-    current = context.current
-    return not (
-        carried.optional
-        or primitive.materials
-        or not current.edge
-        or current.secondary != BLACK
-        or current.fog_coordinate
-    )
+def _told(context: Context) -> Told:
+    """Return the debug groups and the origin of the next draw."""
+    return "/".join(context.labels) if context.labels else "", context.origin

@@ -40,6 +40,7 @@ class Strip:
 
     def draw(self) -> None:
         """Draw the vertices."""
+        thread.context.vertex_buffer.paused = None  # a primitive of its own can have arrays
         glBegin(self.mode)
         n_made, n_vertices = 0, 0
         for call, arguments in self.calls:

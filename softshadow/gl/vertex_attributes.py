@@ -30,13 +30,17 @@ def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
         context.current.color = color = (float(red), float(green), float(blue), float(alpha[0]) if alpha else 1.0)
         primitive.changes["color"].append((len(primitive.positions), color))
         return
-    size = carry_attribute(context, "color", n_components)
+    buffer, size = context.vertex_buffer, n_components
+    is_like_last = buffer.sizes.get("color") == buffer.active_sizes.get("color") == size
+    if not (is_like_last and primitive is None and "color" in context.pending.old_values):
+        size = carry_attribute(context, "color", n_components)  # which does nothing else
     if not alpha:
         alpha = context.current.color[3:] if size > 3 else (1.0,)
     color = (float(red), float(green), float(blue), float(alpha[0]))
     if primitive is None:
         context.current.color = color
-        follow_color(context)
+        if context.groups["lighting"].fields["color_material"]:
+            follow_color(context)
     else:  # glEnd lets the materials follow
         set_attribute(context, "color", n_components, color)
 

@@ -83,6 +83,8 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
     active_sizes[name] = size
     if primitive is not None:
         primitive.position_size = 0  # there is room for fewer vertices
+        if primitive.start:
+            _split(context, primitive)
         if not primitive.positions and not primitive.from_list:
             buffer.submit()
         elif not primitive.from_list:
@@ -178,9 +180,18 @@ def end(context: Context, primitive: Primitive) -> None:
         context.vertex_buffer.n_vertices += 1  # the first one stays in the buffer
 
 
+def _split(context: Context, primitive: Primitive) -> None:
+    """Leave the pairs before to be drawn without this one."""
+    if primitive.waiting is not None:
+        primitive.waiting.compute(context, primitive)
+    context.vertex_buffer.split(primitive)
+
+
 def _wrap(context: Context, primitive: Primitive) -> None:
     """Draw the collected vertices, and keep those that the rest of the primitive needs."""
-    if primitive.waiting is not None:
+    if primitive.start:
+        _split(context, primitive)
+    elif primitive.waiting is not None:
         primitive.waiting.compute(context, primitive)
     _count(context, primitive)
     n = len(primitive)
