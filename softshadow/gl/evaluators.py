@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, Primitive, current
+from softshadow.context import Context, Primitive, current, thread
 from softshadow.context.evaluators import Map
 from softshadow.gl.bezier import curve, surface, surface_with_tangents
 from softshadow.gl.calls import in_lists, spelled_like_gl
@@ -101,33 +101,41 @@ class WaitingVertices:
 
     def __init__(self, evaluated: Evaluated, points: np.ndarray) -> None:
         self._sizes, self._names, self._position_size = evaluated.sizes, tuple(evaluated.rows), points.shape[1]
-        self._parameters: list[tuple[float, ...]] = []
+        self._parameters: list[float] = []  # one or two of each vertex
         self._places: list[int] = []  # in the positions of the primitive
         self._changes: dict[str, list[int]] = {name: [] for name in self._names}  # the places of values in its changes
 
     def add(self, context: Context, primitive: Primitive, parameters: tuple[float, ...]) -> bool:
         """Add a vertex; return False, and do nothing, where that is more than to add numbers."""
-        if primitive.position_size != self._position_size or not _takes_all(context, primitive, self._sizes, 1):
-            return False
         place = len(primitive.positions)
-        for name in self._names:
-            changes = primitive.changes[name]
-            self._changes[name].append(len(changes))
-            changes += [(place, None), (place + 4, context.attribute(name))]
-            primitive.steady.pop(name, None)
+        if primitive.position_size != self._position_size or place + 4 >= primitive.limit:
+            return False
+        if self._names:
+            if not _takes_all(context, primitive, self._sizes, 1):
+                return False
+            for name in self._names:
+                changes = primitive.changes[name]
+                self._changes[name].append(len(changes))
+                changes += [(place, None), (place + 4, context.attribute(name))]
+                primitive.steady.pop(name, None)
         primitive.positions += REST
-        self._parameters.append(parameters)
+        self._parameters += parameters
         self._places.append(place)
         return True
 
     def compute(self, context: Context, primitive: Primitive) -> None:
         """Compute the numbers."""
-        if not self._parameters:
+        count = len(self._places)
+        if not count:
             return
-        evaluated = _evaluated(context, tuple(np.array(column, F32) for column in zip(*self._parameters, strict=True)))
+        evaluated = _evaluated(context, tuple(np.array(self._parameters, F32).reshape(count, -1).T))
         assert evaluated.points is not None
-        for place, position in zip(self._places, _padded(evaluated.points, 4), strict=True):
-            primitive.positions[place : place + 4] = position
+        first, end, positions = self._places[0], self._places[-1] + 4, _columns(evaluated.points, 4)
+        if end - first == 4 * count:
+            primitive.positions[first:end] = positions.reshape(-1).tolist()
+        else:
+            for place, position in zip(self._places, positions.tolist(), strict=True):
+                primitive.positions[place : place + 4] = position
         for name, values in evaluated.rows.items():
             changes, places = primitive.changes[name], self._changes[name]
             for place, value in zip(places, _padded(values, len(context.attribute(name))), strict=True):
@@ -137,9 +145,9 @@ class WaitingVertices:
         self._places.clear()
 
 
-def _evaluate(*numbers: float | np.float32) -> None:
+def _evaluate(*parameters: float) -> None:
     """Add a vertex to the primitive: (u) or (u, v)."""
-    context, parameters = current(), tuple(map(float, numbers))
+    context = thread.context
     primitive: Primitive | None = context.primitive
     if primitive is None or (primitive.waiting is not None and primitive.waiting.add(context, primitive, parameters)):
         return
@@ -238,13 +246,13 @@ def _normals(points: np.ndarray, du: np.ndarray, dv: np.ndarray) -> np.ndarray:
 @in_lists
 def glEvalCoord1f(u: float) -> None:
     """Add the vertex of the enabled curves at a parameter."""
-    _evaluate(u)
+    _evaluate(float(u))
 
 
 @in_lists
 def glEvalCoord2f(u: float, v: float) -> None:
     """Add the vertex of the enabled surfaces at two parameters."""
-    _evaluate(u, v)
+    _evaluate(float(u), float(v))
 
 
 @in_lists
@@ -274,14 +282,14 @@ def _step(grid: tuple[int, float, float]) -> np.float32:
 def glEvalPoint1(i: int) -> None:
     """Add the vertex of a grid point."""
     grid = current().evaluators.grid1
-    _evaluate(F32(i) * _step(grid) + F32(grid[1]))
+    _evaluate(float(F32(i) * _step(grid) + F32(grid[1])))
 
 
 @in_lists
 def glEvalPoint2(i: int, j: int) -> None:
     """Add the vertex of a grid point."""
     u, v = current().evaluators.grid2
-    _evaluate(F32(i) * _step(u) + F32(u[1]), F32(j) * _step(v) + F32(v[1]))
+    _evaluate(float(F32(i) * _step(u) + F32(u[1])), float(F32(j) * _step(v) + F32(v[1])))
 
 
 def _parameters(grid: tuple[int, float, float], first: int, last: int) -> np.ndarray:
