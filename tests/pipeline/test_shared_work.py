@@ -19,7 +19,7 @@ SMALL = {
     "fast.stencil_tiles": {"WORTH_SHARING": 0, "SHARED_TRIANGLES": 8},
     "geometry.triangle_setup": {"TRIANGLES_PER_TASK": 8},
     "memory.threads": {"PART_SIZE": 8},
-    "raster.bins": {"FEW_VISITS": 300},
+    "raster.bins": {"FEW_VISITS": 300, "FEW_BANDS": 1},
     "shade.interpolate": {"TRIANGLES_PER_TASK": 2},
     "shade.shading": {"PARTS_PER_THREAD": 5, "WORTH_SHARING": 0, "CHUNK": 300},
     "shade.visible_spans": {"PIXELS_PER_PART": 500, "WORTH_SHARING": 0, "WORTH_COLLECTING": 0},

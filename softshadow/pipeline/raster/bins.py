@@ -17,7 +17,8 @@ from softshadow.pipeline.records import Region
 BAND_ROWS = 32  # layers drawn over each other in a band stay in the cache
 BANDS_PER_THREAD = 2  # more would balance the threads better, but a triangle is set up again in each band that it meets
 MUCH_WORK = 500_000  # fragments; with fewer, a thread gets one band: to begin a second costs more than balance gains
-FEW_VISITS = 1 << 15  # of triangles in bands: up to these, a look at each triangle takes less time than sorting
+# of triangles in bands: up to these, and in so few bands, a look at each triangle takes less time than sorting
+FEW_VISITS, FEW_BANDS = 1 << 15, 2
 
 
 class Band(NamedTuple):
@@ -66,7 +67,7 @@ def triangles_in_bands(
 ) -> list[Band]:
     """Return the bands of a region, each with the triangles in `parts` that meet it.
 
-    Few triangles are not sorted: each band gets all of them, and kernels skip those without rows in it.
+    Few triangles, and those of few bands, are not sorted: each band gets all, and kernels skip those without rows in it.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def triangles_in_bands(
     parts : first and end numbers of triangles, in order
     """
     n_bands = bands_of(region, band_rows)
-    if sum(end - first for first, end in parts) * n_bands <= FEW_VISITS:
+    if n_bands <= FEW_BANDS or sum(end - first for first, end in parts) * n_bands <= FEW_VISITS:
         numbers = np.concatenate([np.arange(first, end, dtype=np.int32) for first, end in parts])
         return [Band(numbers, *rows_of_band(band, region, band_rows)) for band in range(n_bands)]
     bins = sort_into_bands(corners, parts, region, band_rows)

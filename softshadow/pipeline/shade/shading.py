@@ -24,7 +24,7 @@ SPAN = 16  # fragments that take as long as the beginning of a span
 # plain fragments from which several threads shade them: these take some 800 us, and dividing them 350
 WORTH_SHARING = 350_000
 LOOKED_UP = 5  # plain fragments that take as long as one with a texture
-PARTS_PER_THREAD = 2  # more would balance the threads better, but a triangle is interpolated anew in each part
+PARTS_PER_THREAD = 1  # more would balance the threads better, but a triangle is interpolated anew in each part
 CHUNK = 32 * 2091  # fragments; an odd number of cache lines per column, so that columns do not share cache sets
 
 
