@@ -67,7 +67,7 @@ def triangles_in_bands(
 ) -> list[Band]:
     """Return the bands of a region, each with the triangles in `parts` that meet it.
 
-    Few triangles, and those of few bands, are not sorted: each band gets all, and kernels skip those without rows in it.
+    Few triangles, and those of few bands, are not sorted: each band gets all; kernels skip those without rows in it.
 
     Parameters
     ----------
