@@ -11,7 +11,6 @@ from softshadow.context.joined_pairs import Told
 from softshadow.gl.constant_attributes import carried_of
 from softshadow.gl.vertex_format import vertices_of
 from softshadow.pipeline.commands import Vertices
-from softshadow.state import BLACK
 
 FEW = 64  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
 
@@ -42,9 +41,9 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
         joined.add(_told(context), vertices, count)
     else:
         buffer.begin_joined_pairs(context.draw_command(mode, vertices), count)
-    can_pause = count <= FEW and mode == primitive.mode and primitive.position_size and not primitive.arrays
     is_listed = primitive.from_list or context.executes_list
-    buffer.paused = primitive if can_pause and not is_listed else None
+    can_pause = count <= FEW and mode == primitive.mode and not (is_listed or primitive.arrays)
+    buffer.paused = primitive if can_pause else None
 
 
 def resume(context: Context, paused: Primitive) -> bool:
@@ -64,13 +63,12 @@ def resume(context: Context, paused: Primitive) -> bool:
 def _let_wait(context: Context, paused: Primitive) -> bool:
     """Replace the arrays of a pair by its numbers, so that others can follow; return whether it can be done.
 
-    They can if they have no more attributes than all `Vertices` have.
+    It can if the vertices carry no more attributes than all `Vertices` have.
     """
-    buffer, current = context.vertex_buffer, context.current
+    buffer = context.vertex_buffer
     joined, carried = buffer.joined_pairs, carried_of(tuple(buffer.sizes))
     assert joined is not None
-    has_more = current.secondary != BLACK or current.fog_coordinate or not current.edge
-    if carried.optional or paused.materials or has_more or not joined.takes_more:
+    if carried.optional or paused.materials or not joined.takes_more:
         buffer.paused = None
         return False
     vertices = joined.parts[-1][1]
@@ -80,7 +78,6 @@ def _let_wait(context: Context, paused: Primitive) -> bool:
     for name in carried.columns:
         if name not in paused.changes:  # then all its vertices have the same value
             paused.changes[name] = [(0, tuple(rows[name][0].tolist()))]
-    paused.waiting = None  # the maps of evaluators can be others now
     joined.replace_last(PairNumbers(context, paused))
     return True
 

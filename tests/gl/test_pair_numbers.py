@@ -19,13 +19,18 @@ RARE = (
     ("glPushDebugGroup", gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "group"), ("glPopDebugGroup",),
     ("glEnable", gl.GL_COLOR_MATERIAL), ("glDisable", gl.GL_COLOR_MATERIAL), ("glFogCoordf", 0.5), ("glFogCoordf", 0),
 )  # fmt: skip
-SEEDS = range(120)
+INSIDE = (("glMaterialf", gl.GL_FRONT, gl.GL_SHININESS, 7.0), ("glVertex2f", 0.5, 0.25), ("glEvalCoord1f", 0.25))
+MODES = {
+    gl.GL_QUADS: 8, gl.GL_TRIANGLES: 2, gl.GL_LINES: 1, gl.GL_LINE_LOOP: 2, gl.GL_TRIANGLE_STRIP: 1, gl.GL_POLYGON: 2,
+}  # fmt: skip
+SMALL_BUFFER = 1536  # bytes: some 60 vertices of two floats and a colour
+SEEDS = range(240)
 
 
 def random_program(seed):
-    """Return calls, most of them pairs of quads with a change of one attribute between or inside."""
+    """Return calls, most of them pairs of one mode with a change of one attribute between or inside."""
     random = Random(seed)
-    program, attributes = [], random.sample(ATTRIBUTES, random.randint(1, 3))
+    program, attributes, mode = [], random.sample(ATTRIBUTES, random.randint(1, 3)), gl.GL_QUADS
 
     def attribute():
         name, count = random.choice(attributes)
@@ -39,10 +44,14 @@ def random_program(seed):
         if random.random() < 0.2:
             program.append(("glRectf", *random.choices(NUMBERS, k=4)))
             continue
-        program.append(("glBegin", random.choices((gl.GL_QUADS, gl.GL_TRIANGLES, gl.GL_LINES), (8, 2, 1))[0]))
-        for _ in range(random.choice((4, 4, 4, 6, 8))):
+        if random.random() < 0.5:
+            mode = random.choices(list(MODES), list(MODES.values()))[0]
+        program.append(("glBegin", mode))
+        for _ in range(random.choice((0, 3, 4, 4, 4, 6, 8))):
             if random.random() < 0.2:
                 program.append(attribute())
+            if random.random() < 0.03:
+                program.append(random.choice(INSIDE))
             program.append(("glVertex3f", *random.choices(NUMBERS, k=3)))
         program.append(("glEnd",))
     return program
@@ -51,6 +60,8 @@ def random_program(seed):
 def drawn(program):
     """Return the state and the arrays of all draws of a program."""
     with gl.create_context(4, 4) as context:
+        gl.glMap1f(gl.GL_MAP1_VERTEX_3, 0, 1, [(0, 0, 0), (1, 2, 4)])
+        gl.glEnable(gl.GL_MAP1_VERTEX_3)
         for name, *arguments in program:
             if name != "glPopDebugGroup" or context.labels:
                 getattr(gl, name)(*arguments)
@@ -68,6 +79,9 @@ def described(command):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_numbers_that_wait_change_no_bit(seed, monkeypatch):
     program = random_program(seed)
+    if seed % 2:
+        monkeypatch.setattr(vertex_buffer, "BYTES", SMALL_BUFFER)
+        monkeypatch.setattr(vertex_buffer, "LEAST_BYTES", 64)
     with np.errstate(all="ignore"):
         waiting = drawn(program)
         monkeypatch.setattr(pair_numbers, "FEW", 0)
@@ -100,6 +114,87 @@ def test_a_constant_colour_that_changes_begins_another_part(context):
     quad(1)
     (command,) = context.frame.commands[-1:]
     assert command.vertices.color[-1].tolist() == [0, 1, 0, 1]
+
+
+def test_a_debug_group_has_the_pairs_that_ended_in_it(context):
+    for left in range(3):
+        quad(left)
+    gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "inside")
+    quad(3)
+    quad(4)
+    gl.glPopDebugGroup()
+    quad(5)
+    lefts = [(each.label, each.vertices.position[::4, 0].tolist()) for each in context.frame.commands]
+    assert lefts == [("", [0, 1, 2]), ("inside", [3, 4]), ("", [5])]
+
+
+def test_a_pair_cannot_begin_inside_a_resumed_one(context):
+    quad(0)
+    quad(1)
+    gl.glBegin(gl.GL_QUADS)
+    with pytest.raises(gl.GLError, match="glBegin"):
+        gl.glBegin(gl.GL_QUADS)
+    for x in range(4):
+        gl.glVertex2f(x, 0)
+    gl.glEnd()
+    assert context.frame.commands[0].vertices.position[8:, 0].tolist() == [0, 1, 2, 3]
+
+
+def test_pairs_that_a_list_records_and_executes_are_in_the_list(context):
+    gl.glNewList(1, gl.GL_COMPILE_AND_EXECUTE)
+    for x in range(3):
+        gl.glBegin(gl.GL_QUADS)
+        for y in range(4):
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+    gl.glEndList()
+    gl.glCallList(1)
+    positions = np.concatenate([each.vertices.position[:, :2] for each in context.frame.commands])
+    assert positions.tolist() == [[x, y] for x in range(3) for y in range(4)] * 2
+
+
+def test_pairs_after_one_that_a_list_has_begun_fill_the_buffer_as_others_do(monkeypatch):
+    monkeypatch.setattr(vertex_buffer, "BYTES", SMALL_BUFFER)
+    program = [("glNewList", 1, gl.GL_COMPILE), ("glBegin", gl.GL_QUADS), ("glEndList",), ("glCallList", 1)]
+    program += [*[("glVertex2f", x, 0) for x in range(4)], ("glEnd",)]
+    for x in range(60):
+        program += [("glBegin", gl.GL_QUADS), *[("glVertex2f", x, y) for y in range(4)], ("glEnd",)]
+    waiting = drawn(program)
+    monkeypatch.setattr(pair_numbers, "FEW", 0)
+    assert drawn(program) == waiting
+    assert len(waiting) > 1
+
+
+@pytest.mark.parametrize(
+    "name, arguments, values",
+    [("glMaterialf", (gl.GL_FRONT, gl.GL_SHININESS), (3.0, 5.0)), ("glEdgeFlag", (), (False, True))],
+)
+def test_an_attribute_that_few_vertices_have_can_change_between_pairs(context, name, arguments, values):
+    setting = getattr(gl, name)
+    gl.glBegin(gl.GL_LINES)  # makes the vertices that follow carry the attribute
+    gl.glVertex2f(0, 0)
+    setting(*arguments, values[0])
+    gl.glVertex2f(0, 0)
+    gl.glEnd()
+    for pair in range(4):
+        setting(*arguments, values[pair // 2])
+        quad(pair)
+    vertices = context.frame.commands[-1].vertices
+    found = vertices.materials["front.shininess"].ravel() if vertices.edges is None else vertices.edges
+    assert found[-8:].tolist() == [values[1]] * 8
+    assert found[-16:-8].tolist() == [values[0]] * 8
+
+
+def test_a_strip_of_one_triangle_is_drawn_after_the_strips_before(context):
+    for length in (4, 4, 3, 4):  # Mesa draws three vertices as a triangle
+        gl.glBegin(gl.GL_TRIANGLE_STRIP)
+        for x in range(length):
+            gl.glVertex2f(x, length)
+        gl.glEnd()
+    drawn = [(each.mode, each.vertices.position[:, 1].tolist()) for each in context.frame.commands]
+    assert drawn == [
+        (gl.GL_TRIANGLES, [4] * 8), (gl.GL_TRIANGLES, [3] * 3), (gl.GL_TRIANGLE_STRIP, [4] * 4),
+    ]  # fmt: skip
 
 
 def test_a_large_pair_makes_its_arrays_at_once(context):
