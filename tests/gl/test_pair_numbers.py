@@ -166,7 +166,7 @@ def test_pairs_after_one_that_a_list_has_begun_fill_the_buffer_as_others_do(monk
 
 
 @pytest.mark.parametrize(
-    "name, arguments, values",
+    ("name", "arguments", "values"),
     [("glMaterialf", (gl.GL_FRONT, gl.GL_SHININESS), (3.0, 5.0)), ("glEdgeFlag", (), (False, True))],
 )
 def test_an_attribute_that_few_vertices_have_can_change_between_pairs(context, name, arguments, values):
