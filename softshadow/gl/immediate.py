@@ -37,8 +37,7 @@ def can_draw(context: Context, operation: str) -> bool:
 def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = thread.context
-    paused = context.vertex_buffer.paused
-    if paused is not None and paused.mode == mode and resume(context, paused):
+    if resume(context, mode):
         return
     try:
         if not (context.ready or is_allowed(context, glBegin, mode)):
@@ -78,12 +77,11 @@ def glEnd() -> None:
         return
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
-    if primitive.start and add_resumed(context, mode, primitive, count):
-        pass
-    elif mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
-        collect_pair(context, mode, primitive)
-    else:
-        context.draw_primitive(mode, vertices_of(context, primitive))
+    if not (primitive.start and add_resumed(context, mode, primitive, count)):
+        if mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
+            collect_pair(context, mode, primitive)
+        else:
+            context.draw_primitive(mode, vertices_of(context, primitive))
     one_line = mode == gl.GL_LINE_STRIP and count == 2
     context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
 
@@ -220,8 +218,7 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
     if context is None or not can_draw(context, "glRectf"):
         return
     hypot(x1, y1, x2, y2)  # the quickest question whether these are numbers
-    paused = context.vertex_buffer.paused
-    if paused is None or paused.mode != gl.GL_QUADS or not resume(context, paused):
+    if not resume(context, gl.GL_QUADS):
         begin(context, gl.GL_QUADS)
     primitive = context.primitive
     assert primitive is not None

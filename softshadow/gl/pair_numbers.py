@@ -46,9 +46,12 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     buffer.paused = primitive if can_pause else None
 
 
-def resume(context: Context, paused: Primitive) -> bool:
-    """Begin a pair whose vertices follow those of the paused one; return False, and do nothing, if it has its own."""
-    if context.primitive is not None or not (paused.start or _let_wait(context, paused)):
+def resume(context: Context, mode: int) -> bool:
+    """Begin a pair with the vertices of the paused one; return False, and do nothing, if it has its own."""
+    paused = context.vertex_buffer.paused
+    if paused is None or paused.mode != mode or context.primitive is not None:
+        return False
+    if not paused.start and not _let_wait(context, paused):
         return False
     place, current = len(paused.positions), context.current.__dict__
     for name, changes in paused.changes.items():
