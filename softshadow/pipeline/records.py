@@ -182,7 +182,9 @@ class Spans(NamedTuple):
 
     def part(self, first: int, end: int) -> Spans:
         """Return the spans from `first` to `end`, their fragments numbered from 0."""
-        start = self.start[first : end + 1] - self.start[first]
+        start = self.start[first : end + 1]
+        if first:
+            start = start - self.start[first]
         return Spans(self.row[first:end], self.left[first:end], self.triangle[first:end], start)
 
     def equal_parts(self, n_parts: int, beginning: int) -> list[tuple[int, int]]:

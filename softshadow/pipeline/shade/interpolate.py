@@ -15,6 +15,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Setup, Spans
 
+NOT_NEEDED = np.int32(-1)  # no number of a triangle
 LONG_SPAN = 8  # fragments; from this length on, a loop per column pays
 TRIANGLES_PER_TASK = 1 << 12  # whose planes are computed by one thread in one go
 
@@ -131,8 +132,7 @@ def planes_of(
     provoking : (T,) int32, by the triangles that ``triangles.ids`` numbers
     """
     place, needed = scratch(len(triangles.ids), np.int32), scratch(len(triangles.ids), np.int32)
-    place[:] = -1
-    needed = needed[: number_in_order(spans.triangle, place, needed)]
+    needed = needed[: number_triangles(spans.triangle, place, needed)]
     planes = scratch((len(needed), 3, values.shape[1] + 1), window.dtype)
     parts = parts_of(len(needed), TRIANGLES_PER_TASK)
 
@@ -154,17 +154,21 @@ def coordinates_of(spans: Spans, dtype: np.dtype) -> np.ndarray:
 
 
 @kernel
-def number_in_order(triangles, place, needed):
-    """Number the triangles in the order of their first span; return how many they are.
+def number_triangles(triangles, place, needed):
+    """Number the triangles of spans in drawing order; return how many they are.
 
-    `place` (T,) holds -1s and receives the numbers, `needed` the triangles.
+    Neighbours in a mesh have vertices in common, so the processor's cache has them still. `place` (T,) receives the
+    numbers, and -1 for other triangles; `needed` (T,) the triangles.
     """
-    n = np.uint64(0)
+    place[:] = NOT_NEEDED
     for r in range(triangles.shape[0]):
-        t = np.uint64(triangles[r])
-        if place[t] < 0:
-            place[t], needed[n] = n, t
-            n += np.uint64(1)
+        place[np.uint64(triangles[r])] = 0
+    n = np.uint64(0)
+    for t in range(np.uint64(place.shape[0])):
+        needed[n] = t
+        is_needed = place[t] != NOT_NEEDED
+        place[t] = n if is_needed else NOT_NEEDED
+        n += np.uint64(is_needed)
     return n
 
 

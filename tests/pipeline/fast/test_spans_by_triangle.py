@@ -7,16 +7,16 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline.fast.fixed_function_spans import LONG_SPAN, spans_by_triangle
 from softshadow.pipeline.records import Region, Spans
-from softshadow.pipeline.shade.interpolate import AttributePlanes, number_in_order
+from softshadow.pipeline.shade.interpolate import AttributePlanes, number_triangles
 from softshadow.pipeline.shade.visible_spans import fragments_of, visible_spans
 
 SIDE = 24
 
 
 def planes_for(spans: Spans, n_triangles: int) -> AttributePlanes:
-    """Return planes of no values, placed in the order of the triangles' first spans."""
-    place, needed = np.full(n_triangles, -1, np.int32), np.empty(n_triangles, np.int32)
-    n_needed = number_in_order(spans.triangle, place, needed)
+    """Return planes of no values for the triangles of spans."""
+    place, needed = np.empty((2, n_triangles), np.int32)
+    n_needed = number_triangles(spans.triangle, place, needed)
     return AttributePlanes(np.zeros((n_needed, 3, 1), np.float32), place)
 
 
