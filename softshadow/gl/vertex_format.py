@@ -97,6 +97,7 @@ def carry_attribute(context: Context, name: str, size: int) -> int:
         if name not in sizes and had_many:
             sizes.clear()
             context.reset_attributes()
+            context.pending.reset_due = context.pending.has_vertices = True  # Mesa still flushes at the next change
             context.remember_attribute(name)
     sizes[name], context.ready = size, False
     return size
