@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
+from softshadow import tokens as gl
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.state_groups import Followed, Group, StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
@@ -41,6 +42,7 @@ class ChangingState:
     changed: set[Group]
     ready: bool
     pending: PendingAttributes
+    touched: int
     primitive: Primitive | None  # between glBegin and glEnd
     vertex_buffer: VertexBuffer  # immediate mode
     text: CollectedText | None  # bitmaps that are collected; they come before the collected vertices
@@ -90,6 +92,8 @@ class ChangingState:
                 self.flush()
             fields[name] = value
             self.changed.add(changed)
+            if changed.lights:
+                self.mark_materials()
 
     def change(self, group: str, **fields: Any) -> None:
         """Set fields of a group of the state, as `change_field` does."""
@@ -102,6 +106,16 @@ class ChangingState:
         changed = self.groups[group]
         changed.fields.update(fields)
         self.changed.add(changed)
+        if changed.lights:
+            self.mark_materials()
+
+    def mark_materials(self) -> None:
+        """Mark materials that follow colours as changed, with the lighting: glPopAttrib restores them together.
+
+        It does so also if all else has its value from the push again.
+        """
+        if self.groups["lighting"].fields["color_material"]:
+            self.touched |= gl.GL_LIGHTING_BIT
 
     def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
         """Set the same fields in several groups of the state, as `change_field` does."""

@@ -12,7 +12,7 @@ from operator import is_
 from typing import Any
 
 from softshadow.frozen import evolve
-from softshadow.state import TEXTURE_UNITS, Color, Lighting, State
+from softshadow.state import TEXTURE_UNITS, Color, Lighting, LightState, State
 
 # parts of groups that are groups themselves: (group, field)
 PARTS = (
@@ -52,16 +52,19 @@ Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
 
 class Group:
-    """A group of the state: its fields, and its last immutable value.
+    """A group of the state: its fields, and its last immutable value. `lights`: one of the lighting, but no material.
 
     The latest values are kept: a program that goes back and forth between states gets the same objects again, and what
     was derived from them.
     """
 
-    __slots__ = ("_equal", "_is_kept", "field", "fields", "index", "known", "parent", "parts", "tuples", "value")
+    __slots__ = (
+        "_equal", "_is_kept", "field", "fields", "index", "known", "lights", "parent", "parts", "tuples", "value",
+    )  # fmt: skip
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
+        self.lights = isinstance(value, Lighting | LightState)
         self.fields: dict[str, Any] = dict(vars(value))
         self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
         self.tuples: dict[tuple[int, ...], tuple[Any, ...]] = {}  # of groups, by their identity

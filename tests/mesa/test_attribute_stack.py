@@ -210,3 +210,47 @@ def test_pop_in_another_framebuffer_leaves_what_mesa_leaves(bits, pushed_in, pop
     for changes in ((), ("glDrawBuffer",), ("glReadBuffer",), ("glDrawBuffer", "glReadBuffer")):
         comparison = compare(popped_elsewhere(bits, pushed_in, popped_in, changes), SIZE)
         assert comparison, (changes, str(comparison))
+
+
+BACK_AND_FORTH = {  # changes of the lighting that are taken back before glPopAttrib
+    "nothing": lambda gl: ((), ()),
+    "depth test": lambda gl: ((gl.glEnable, gl.GL_DEPTH_TEST), (gl.glDisable, gl.GL_DEPTH_TEST)),
+    "lighting": lambda gl: ((gl.glDisable, gl.GL_LIGHTING), (gl.glEnable, gl.GL_LIGHTING)),
+    "color material": lambda gl: ((gl.glDisable, gl.GL_COLOR_MATERIAL), (gl.glEnable, gl.GL_COLOR_MATERIAL)),
+    "light": lambda gl: ((gl.glEnable, gl.GL_LIGHT1), (gl.glDisable, gl.GL_LIGHT1)),
+    "shade model": lambda gl: ((gl.glShadeModel, gl.GL_FLAT), (gl.glShadeModel, gl.GL_SMOOTH)),
+    "mode": lambda gl: (
+        (gl.glColorMaterial, gl.GL_FRONT, gl.GL_DIFFUSE),
+        (gl.glColorMaterial, gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE),
+    ),
+    "light's colour": lambda gl: (
+        (gl.glLightfv, gl.GL_LIGHT0, gl.GL_AMBIENT, (0.5, 0.5, 0.5, 1)),
+        (gl.glLightfv, gl.GL_LIGHT0, gl.GL_AMBIENT, (0, 0, 0, 1)),
+    ),
+}
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("drawn_between", [False, True])
+@pytest.mark.parametrize("bits", BITS)
+@pytest.mark.parametrize("change", BACK_AND_FORTH)
+def test_materials_that_follow_a_colour_return_with_a_lighting_that_has_changed(change, bits, drawn_between):
+    def triangle(gl):
+        gl.glColor4f(0.1, 0.4, 0.06, 0.96)
+        gl.glRectf(-1, -1, 1, 0)
+
+    def program(gl):
+        gl.glEnable(gl.GL_LIGHTING)
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        gl.glPushAttrib(getattr(gl, bits))
+        away, back = BACK_AND_FORTH[change](gl)
+        for call in (away, triangle, back) if drawn_between else (away, back, triangle):
+            if call is triangle:
+                triangle(gl)
+            elif call:
+                call[0](*call[1:])
+        gl.glPopAttrib()
+        gl.glRectf(-1, 0, 1, 1)
+
+    comparison = compare(program, (8, 8))
+    assert comparison, str(comparison)
