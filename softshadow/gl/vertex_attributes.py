@@ -32,7 +32,7 @@ def set_color(red: float, green: float, blue: float, *alpha: float) -> None:
         return
     buffer, size = context.vertex_buffer, n_components
     is_like_last = buffer.sizes.get("color") == buffer.active_sizes.get("color") == size
-    if not (is_like_last and primitive is None and "color" in context.pending.old_values):
+    if not (is_like_last and "color" in context.pending.old_values):
         size = carry_attribute(context, "color", n_components)  # which does nothing else
     if not alpha:
         alpha = context.current.color[3:] if size > 3 else (1.0,)

@@ -219,6 +219,17 @@ def test_evaluated_vertices_are_those_of_the_map(context, mode):
     assert positions.tolist() == [[n / 16, n / 8, n / 4, 1] for n in range(12)]
 
 
+def test_evaluated_vertices_fill_the_buffer_as_others_do(monkeypatch):
+    monkeypatch.setattr(vertex_buffer, "BYTES", SMALL_BUFFER)
+
+    def strip(vertex):
+        return drawn([("glBegin", gl.GL_LINE_STRIP), *map(vertex, range(257)), ("glEnd",)])
+
+    evaluated = strip(lambda n: ("glEvalCoord1f", n / 256))
+    assert evaluated == strip(lambda n: ("glVertex3f", n / 256, n / 128, n / 64))
+    assert len(evaluated) > 1
+
+
 @pytest.mark.parametrize("few", [0, 16])
 def test_meshes_of_points_have_the_colours_of_their_maps(context, monkeypatch, few):
     monkeypatch.setattr(pair_numbers, "FEW", few)

@@ -212,6 +212,26 @@ def test_pop_in_another_framebuffer_leaves_what_mesa_leaves(bits, pushed_in, pop
         assert comparison, (changes, str(comparison))
 
 
+@pytest.mark.mesa
+@pytest.mark.parametrize("asks", [False, True])
+def test_pop_restores_a_colour_like_that_of_the_vertices_before(asks):
+    def program(gl):
+        gl.glBegin(gl.GL_TRIANGLES)
+        for x, y in ((-1, -1), (1, -1), (0, 1)):
+            gl.glColor3f(1, x, y)
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+        if asks:  # then the colour is current, and vertices still carry one
+            gl.glGetFloatv(gl.GL_CURRENT_COLOR)
+        gl.glPushAttrib(gl.GL_CURRENT_BIT)
+        gl.glColor3f(0, 0.5, 1)
+        gl.glPopAttrib()
+        return gl.glGetFloatv(gl.GL_CURRENT_COLOR)
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
+
+
 BACK_AND_FORTH = {  # changes of the lighting that are taken back before glPopAttrib
     "nothing": lambda gl: ((), ()),
     "depth test": lambda gl: ((gl.glEnable, gl.GL_DEPTH_TEST), (gl.glDisable, gl.GL_DEPTH_TEST)),
