@@ -90,10 +90,10 @@ class ChangingState:
         if fields[name] is not value:
             if not self.ready and self._would_redraw((group,), {name: value}):
                 self.flush()
+            if changed.is_lighting and fields[name] != value:
+                self.mark_materials()
             fields[name] = value
             self.changed.add(changed)
-            if changed.lights:
-                self.mark_materials()
 
     def change(self, group: str, **fields: Any) -> None:
         """Set fields of a group of the state, as `change_field` does."""
@@ -104,10 +104,10 @@ class ChangingState:
         if not self.ready and self._would_redraw((group,), fields):
             self.flush()
         changed = self.groups[group]
+        if changed.is_lighting and any(changed.fields[name] != value for name, value in fields.items()):
+            self.mark_materials()
         changed.fields.update(fields)
         self.changed.add(changed)
-        if changed.lights:
-            self.mark_materials()
 
     def mark_materials(self) -> None:
         """Mark materials that follow colours as changed, with the lighting: glPopAttrib restores them together.

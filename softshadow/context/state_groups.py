@@ -52,19 +52,19 @@ Followed = tuple[tuple[str, ...], tuple[str, ...], Color]
 
 
 class Group:
-    """A group of the state: its fields, and its last immutable value. `lights`: one of the lighting, but no material.
+    """A group of the state: its fields, and its last immutable value.
 
     The latest values are kept: a program that goes back and forth between states gets the same objects again, and what
-    was derived from them.
+    was derived from them. `is_lighting` is true of the lighting and of each light, not of the materials.
     """
 
     __slots__ = (
-        "_equal", "_is_kept", "field", "fields", "index", "known", "lights", "parent", "parts", "tuples", "value",
+        "_equal", "_is_kept", "field", "fields", "index", "is_lighting", "known", "parent", "parts", "tuples", "value",
     )  # fmt: skip
 
     def __init__(self, value: Any, parent: Group | None, field: str, index: int = -1) -> None:
         self.value, self.parent, self.field, self.index = value, parent, field, index
-        self.lights = isinstance(value, Lighting | LightState)
+        self.is_lighting = isinstance(value, Lighting | LightState)
         self.fields: dict[str, Any] = dict(vars(value))
         self.parts: dict[str, list[Group]] = {}  # groups among the fields: equal ones are the same object
         self.tuples: dict[tuple[int, ...], tuple[Any, ...]] = {}  # of groups, by their identity

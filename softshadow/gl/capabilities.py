@@ -126,7 +126,8 @@ def _switch_other(context: Context, cap: int, on: bool) -> None:
         if enabled[index] != on:
             context.change_field("clip_planes", "enabled", with_item(enabled, index, on))
     elif is_on(context.drawn_state, cap, unit) != on:
-        context.mark_materials()
+        if cap == gl.GL_COLOR_MATERIAL:
+            context.mark_materials()
         context.change_state(with_capability(context.state, cap, unit, on))
         if cap == gl.GL_COLOR_MATERIAL and on:
             start_to_follow(context)

@@ -37,9 +37,9 @@ def can_draw(context: Context, operation: str) -> bool:
 def glBegin(mode: int) -> None:
     """Start a primitive."""
     context = thread.context
-    if resume(context, mode):
-        return
     try:
+        if resume(context, mode):
+            return
         if not (context.ready or is_allowed(context, glBegin, mode)):
             return
         is_mode = mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)

@@ -140,6 +140,13 @@ def test_a_pair_cannot_begin_inside_a_resumed_one(context):
     assert context.frame.commands[0].vertices.position[8:, 0].tolist() == [0, 1, 2, 3]
 
 
+def test_a_mode_that_is_an_array_is_refused_also_after_pairs(context):
+    quad(0)
+    quad(1)
+    with pytest.raises(TypeError, match="glBegin"):
+        gl.glBegin(np.array([gl.GL_QUADS, gl.GL_QUADS]))
+
+
 def test_pairs_that_a_list_records_and_executes_are_in_the_list(context):
     gl.glNewList(1, gl.GL_COMPILE_AND_EXECUTE)
     for x in range(3):

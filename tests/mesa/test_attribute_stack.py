@@ -232,9 +232,17 @@ def test_pop_restores_a_colour_like_that_of_the_vertices_before(asks):
     assert comparison, str(comparison)
 
 
+GL_STENCIL_TEST_TWO_SIDE_EXT = 0x8910  # PyOpenGL has it in a module of its own
 BACK_AND_FORTH = {  # changes of the lighting that are taken back before glPopAttrib
     "nothing": lambda gl: ((), ()),
     "depth test": lambda gl: ((gl.glEnable, gl.GL_DEPTH_TEST), (gl.glDisable, gl.GL_DEPTH_TEST)),
+    "the same light": lambda gl: 2 * ((gl.glLightfv, gl.GL_LIGHT0, gl.GL_AMBIENT, (0, 0, 0, 1)),),
+    "the same model": lambda gl: 2 * ((gl.glLightModeli, gl.GL_LIGHT_MODEL_TWO_SIDE, 0),),
+    "the same shade model": lambda gl: 2 * ((gl.glShadeModel, int(str(int(gl.GL_SMOOTH)))),),  # another object
+    "two-sided stencil test": lambda gl: (
+        (gl.glEnable, GL_STENCIL_TEST_TWO_SIDE_EXT),
+        (gl.glDisable, GL_STENCIL_TEST_TWO_SIDE_EXT),
+    ),
     "lighting": lambda gl: ((gl.glDisable, gl.GL_LIGHTING), (gl.glEnable, gl.GL_LIGHTING)),
     "color material": lambda gl: ((gl.glDisable, gl.GL_COLOR_MATERIAL), (gl.glEnable, gl.GL_COLOR_MATERIAL)),
     "light": lambda gl: ((gl.glEnable, gl.GL_LIGHT1), (gl.glDisable, gl.GL_LIGHT1)),
