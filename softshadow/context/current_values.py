@@ -134,6 +134,8 @@ class CurrentValues(ChangingState):
                     self.touched |= bit
             old_values.clear()
             pending.settled = None
+            if self.vertex_buffer.paused is not None:  # its next attributes are pending again
+                self.vertex_buffer.paused.steady.clear()
 
     def _make_hidden_current(self) -> None:
         pending, color = self.pending, self.current.color

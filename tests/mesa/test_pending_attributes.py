@@ -45,3 +45,29 @@ def test_what_is_set_between_vertices_and_a_change_of_state(setting, change, n_v
 
     comparison = compare(program, (16, 16))
     assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("n_vertices", [0, 4])
+@pytest.mark.parametrize("query", ["GL_CURRENT_COLOR", "GL_CURRENT_NORMAL", "GL_VIEWPORT"])
+def test_a_colour_between_pairs_of_one_mode_is_pending_after_a_query(query, n_vertices):
+    def pair(gl, color, count):
+        gl.glBegin(gl.GL_QUADS)
+        gl.glColor4f(*color)
+        for x, y in CORNERS[:count]:
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+
+    def program(gl):
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        pair(gl, (0.75, 0.5, 0.25, 1), 4)
+        pair(gl, (0.5, 0.25, 0.75, 1), 4)
+        gl.glGetFloatv(getattr(gl, query))
+        pair(gl, (0.25, 0.75, 0.5, 1), n_vertices)
+        material = gl.glGetMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE)
+        gl.glPushAttrib(gl.GL_CURRENT_BIT)
+        pair(gl, (1, 0, 1, 1), n_vertices)
+        gl.glPopAttrib()
+        return [material, gl.glGetFloatv(gl.GL_CURRENT_COLOR)]
+
+    comparison = compare(program, (16, 16))
+    assert comparison, str(comparison)
