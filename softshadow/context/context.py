@@ -182,6 +182,11 @@ class Context(CurrentValues, Precision):
         self._waiting.carry_out()
         return self.objects
 
+    def passed_fragments(self, query: int) -> int:
+        """Return how many fragments an ended occlusion query has counted; draws that it does not count may wait."""
+        self._waiting.finish_query(query)
+        return self.objects.queries[query]
+
     @property
     def frame(self) -> Frame:
         """The recording, after drawing everything that is still collected."""
@@ -257,9 +262,9 @@ class Context(CurrentValues, Precision):
                 self._waiting.forget()
                 self.bound_samplers = None
             if type(command) is BeginQuery:  # draws that wait remember their query
-                self._waiting.begin_query(command.query)
+                self._waiting.finish_query(command.query)  # if it begins anew
                 execute(command, self.objects)
-            else:
+            elif type(command) is not Clear or not self._waiting.add_clear(command):
                 execute(command, self.storage)
         elif not self._waiting.add(command):
             execute(command, self.objects)

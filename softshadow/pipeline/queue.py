@@ -16,10 +16,12 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import pipeline
+from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import announce_compiling
+from softshadow.pipeline.buffers.clear import clear
 from softshadow.pipeline.choose import joins_others
-from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.commands import Clear, Draw
 from softshadow.pipeline.plan import (
     MOST_DRAWS,
     MOST_VERTICES,
@@ -115,7 +117,8 @@ class DrawQueue:
         self._kind: Kind | None = None  # of the last draw
         self._like: Draw  # a draw of this kind
         self._batches: dict[int, list[Draw]] = {}  # by their numbers
-        self._segments: list[Segment] = []  # in drawing order
+        self._segments: list[Segment | Clear] = []  # in drawing order
+        self._segment: Segment | None = None  # the last one, if no clear follows it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
 
@@ -138,19 +141,31 @@ class DrawQueue:
         if batch is None:
             batch = self._batches[kind.batch] = []
         batch.append(command)
-        segments = self._segments
-        last = segments[-1] if segments else None
-        query = self._storage.active_query
+        last, query = self._segment, self._storage.active_query
         if last is not None and last.kind is kind and last.continues_with(command.state, query):
             last.end += 1
         else:
-            segments.append(Segment(kind, command, len(batch) - 1, len(batch), query))
+            self._segment = Segment(kind, command, len(batch) - 1, len(batch), query)
+            self._segments.append(self._segment)
             self._queries.add(query)
         self._n_draws += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
         if self._n_draws == MOST_DRAWS:
             self.carry_out()
+        return True
+
+    def add_clear(self, command: Clear) -> bool:
+        """Let a clear wait behind draws; return False if it must be carried out at once (all draws have been, then).
+
+        A clear of all pixels begins a picture, so what it hides need not wait any longer.
+        """
+        if command.mask & gl.GL_COLOR_BUFFER_BIT and not command.state.scissor.enabled:
+            self.carry_out()
+        if not self._segments:
+            return False
+        self._segments.append(command)
+        self._segment = None
         return True
 
     def _kind_of(self, command: Draw) -> Kind | None:
@@ -220,8 +235,8 @@ class DrawQueue:
         self._batch_numbers.clear()
         self._known_vertices = 0
 
-    def begin_query(self, query: int) -> None:
-        """Make ready for the begin of an occlusion query; 0 ends one. Draws that it has counted before come first."""
+    def finish_query(self, query: int) -> None:
+        """Carry out the draws that wait if an occlusion query counts fragments of some; 0 stands for no query."""
         if query and query in self._queries:
             self.carry_out()
 
@@ -230,16 +245,22 @@ class DrawQueue:
         batches, segments = self._batches, self._segments
         if not segments:
             return
-        self._kind, self._batches, self._segments, self._queries = None, {}, [], set()
+        self._kind, self._batches, self._queries = None, {}, set()
+        self._segments, self._segment = [], None
         self._n_draws, self._n_vertices, self._are_small = 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()
         with np.errstate(all="ignore"):  # as in pipeline.draw
-            parts = self._parts(batches, segments)
+            parts = self._parts(batches, [each for each in segments if isinstance(each, Segment)])
             BATCH_KERNELS.note_compiled()
             group: Group | None = None
-            for segment, part in zip(segments, parts, strict=True):
-                if part.end > part.first:
+            for segment in segments:
+                if isinstance(segment, Clear):
+                    if group:
+                        group.draw()
+                    group = None
+                    clear(segment, self._storage)
+                elif (part := parts[id(segment)]).end > part.first:
                     group = self._draw_segment(segment, part, group)
             if group:
                 group.draw()
@@ -272,9 +293,9 @@ class DrawQueue:
         group.takes(state, numbers, part, target, query)
         return group
 
-    def _parts(self, batches: dict[int, list[Draw]], segments: list[Segment]) -> list[Part]:
-        """Return the triangles of each segment."""
-        parts: dict[int, Part] = {}  # by segment
+    def _parts(self, batches: dict[int, list[Draw]], segments: list[Segment]) -> dict[int, Part]:
+        """Return the triangles of each segment, by its identity."""
+        parts: dict[int, Part] = {}
         of_batch: dict[int, list[Segment]] = {number: [] for number in batches}
         for segment in segments:
             of_batch[segment.kind.batch].append(segment)
@@ -287,4 +308,4 @@ class DrawQueue:
                 continue
             firsts, settings = [segment.first for segment in own], [segment.kind.setting for segment in own]
             parts.update(zip(map(id, own), cut(batch, draws, firsts, settings), strict=True))
-        return [parts[id(segment)] for segment in segments]
+        return parts

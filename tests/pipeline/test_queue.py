@@ -76,6 +76,61 @@ def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch
     assert segments == [2, 2] * 4  # two triangles; two of a line
 
 
+def draw_triangle(y: float = -1) -> None:
+    """Draw the lower left half of the window, above y."""
+    gl.glBegin(gl.GL_TRIANGLES)
+    for corner in ((-1, y), (1, y), (-1, 1)):
+        gl.glVertex2f(*corner)
+    gl.glEnd()
+
+
+@pytest.mark.parametrize("plane", [gl.GL_DEPTH_BUFFER_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_COLOR_BUFFER_BIT])
+def test_a_clear_between_small_draws_does_not_divide_their_batch(batches, plane):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    for n in range(5):
+        gl.glScissor(n, 0, SIZE, SIZE)
+        gl.glColor3ub(50 * n, 0, 0)
+        gl.glClearColor(0, n / 5, 0, 1)
+        gl.glClear(plane)
+        draw_triangle(0)
+    assert not batches
+    pixels = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    assert batches == [5]
+    assert pixels[SIZE // 2 + 1, :6, 0].tolist() == [0, 50, 100, 150, 200, 200]
+    is_cleared = plane == gl.GL_COLOR_BUFFER_BIT
+    assert pixels[0, :6, 1].tolist() == ([0, 51, 102, 153, 204, 204] if is_cleared else [0] * 6)
+
+
+def test_a_clear_of_all_pixels_carries_out_the_picture_before_it(batches):
+    gl.create_context(SIZE, SIZE)
+    draw_triangle()
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+    assert batches == [1]
+    assert not gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[..., 0].any()
+
+
+def test_a_result_carries_out_only_draws_that_the_query_counts(batches):
+    gl.create_context(SIZE, SIZE)
+    queries = gl.glGenQueries(2).tolist()
+    for query in queries:
+        gl.glBeginQuery(gl.GL_SAMPLES_PASSED, query)
+        draw_triangle()
+        gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+    counts = [gl.glGetQueryObjectuiv(queries[0], gl.GL_QUERY_RESULT)]
+    assert batches == [2]
+    draw_triangle()
+    counts += [gl.glGetQueryObjectuiv(query, gl.GL_QUERY_RESULT) for query in queries]
+    assert batches == [2], "the last draw is not counted, and waits"
+    assert len(set(counts)) == 1
+    assert counts[0] > 0
+    gl.glBeginQuery(gl.GL_SAMPLES_PASSED, queries[0])
+    draw_triangle()
+    gl.glEndQuery(gl.GL_SAMPLES_PASSED)
+    assert gl.glGetQueryObjectuiv(queries[0], gl.GL_QUERY_RESULT) == counts[0]
+    assert batches == [2, 2]
+
+
 def test_draws_in_many_scissor_boxes_are_of_one_kind_and_fill_their_own_box(planned):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_SCISSOR_TEST)
