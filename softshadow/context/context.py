@@ -121,7 +121,7 @@ class Context(CurrentValues, Precision):
         self.origin: Origin | None = None  # what the primitives of the next draws were made from
         self.open_step: str | None = None  # title of a step that has begun
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self.vertex_buffer = VertexBuffer(self._carry_out, self.objects)  # immediate mode
+        self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self.objects)  # immediate mode
         self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
@@ -270,6 +270,16 @@ class Context(CurrentValues, Precision):
             execute(command, self.objects)
         if self._frame.append(command):
             self._frame.shorten(self.storage)
+
+    def _carry_out_alike(self, commands: Sequence[Draw]) -> None:
+        """Carry out and record draws that differ from the first one in their vertices only."""
+        n_waiting = 0
+        if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
+            n_waiting = self._waiting.add_alike(commands)
+            if self._frame.extend(commands[:n_waiting]):
+                self._frame.shorten(self.storage)
+        for command in commands[n_waiting:]:
+            self._carry_out(command)
 
     def _has_image_like(self, command: Command) -> bool:
         """Return whether a command replaces an image of a texture by one of the same format and size."""

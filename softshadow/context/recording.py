@@ -7,6 +7,7 @@ and begins with a copy of the storage as they left it. Replayed from there, it g
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -127,8 +128,20 @@ class Frame:
     def append(self, command: Command) -> bool:
         """Record a command that is carried out; return whether `shorten` must be called when all of them have been."""
         self.commands.append(command)
-        if self.history_bytes is None:
-            return False
+        return self.history_bytes is not None and self._note(command)
+
+    def extend(self, commands: Sequence[Command]) -> bool:
+        """Record several commands; return what `append` returns."""
+        self.commands += commands
+        is_long = False
+        if self.history_bytes is not None:
+            for command in commands:
+                is_long = self._note(command)
+        return is_long
+
+    def _note(self, command: Command) -> bool:
+        """Count the bytes of a command; return whether there are too many."""
+        assert self.history_bytes is not None
         if type(command) is Draw and type(command.vertices.position.base) is bytes and command.joined_positions is None:
             # its arrays are its own: they are counted when their bound no longer suffices, which is seldom
             self._uncounted.append(command)

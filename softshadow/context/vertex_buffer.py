@@ -17,7 +17,13 @@ from softshadow.context.joined_pairs import JoinedPairs
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import offset_mode_of
-from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE, CollectedPairs, DriverDraw
+from softshadow.pipeline.mesa.driver_draws import (
+    MAX_PAIRS,
+    SEPARATE,
+    CollectedPairs,
+    DriverDraw,
+    offset_depends_on_mode,
+)
 
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
@@ -154,11 +160,17 @@ class VertexBuffer:
     Parameters
     ----------
     carry_out : callable     executes and records a draw
+    carry_out_alike : callable    the same with several, which differ from the first one in their vertices only
     storage : Storage        buffers to draw to: a driver's draw chooses its polygon offset by them
     """
 
-    def __init__(self, carry_out: Callable[[Draw], None], storage: Storage) -> None:
-        self._carry_out, self._storage = carry_out, storage
+    def __init__(
+        self,
+        carry_out: Callable[[Draw], None],
+        carry_out_alike: Callable[[Sequence[Draw]], None],
+        storage: Storage,
+    ) -> None:
+        self._carry_out, self._carry_out_alike, self._storage = carry_out, carry_out_alike, storage
         self.sizes: dict[str, int] = {}
         self.active_sizes: dict[str, int] = {}
         self.n_vertices, self.used_bytes = 0, 0
@@ -179,6 +191,21 @@ class VertexBuffer:
             driver_draw = self.driver_draw = DriverDraw(mode)
         if not driver_draw.is_lost:
             self._carry_out(driver_draw.part(command, self._offset_mode_of))
+
+    def draw_pairs(self, commands: Sequence[Draw]) -> None:
+        """Draw glBegin ... glEnd pairs of one mode, none of which are joined, that differ in their vertices only."""
+        mode, counts = commands[0].mode, [len(command.vertices.position) for command in commands]
+        self.n_vertices += sum(counts)
+        self.draw_joined_pairs()
+        if mode != self.driver_draw.mode:
+            self.driver_draw = DriverDraw(mode)
+        if offset_depends_on_mode(commands[0].state):
+            for command in commands:
+                self.draw(command)
+        elif not self.driver_draw.is_lost:
+            self._carry_out_alike(commands)
+        if self.pairs.add_several(mode, counts) >= MAX_PAIRS:
+            self.submit()
 
     def _offset_mode_of(self, draw: Draw) -> int:
         return offset_mode_of(draw, self._storage)

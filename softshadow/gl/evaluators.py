@@ -386,11 +386,13 @@ def _mesh(context: Context, mode: int, grid: Any, ranges: tuple[tuple[int, int],
 
 def _draw(context: Context, mesh: Mesh) -> None:
     """Draw the primitives of a mesh."""
-    similar = None
+    similar, n_done = None, 0
     for number, (start, end) in enumerate(pairwise(mesh.ends)):
         if number == 1 and mesh.pairs:
             similar = similar_pairs(context, mesh.sizes)
-        if similar is None or not similar.add(mesh.mode, mesh.pairs[number]):
+        if similar is not None and n_done <= number:
+            n_done = number + similar.add(mesh.mode, mesh.pairs[number:])
+        if n_done <= number:
             glBegin(mesh.mode)
             _add_vertices(context, mesh.evaluated.at(slice(start, end)), end - start)
             glEnd()

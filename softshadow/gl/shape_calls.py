@@ -54,16 +54,10 @@ class Strip:
                 call(*arguments)
         glEnd()
 
-    def draw_after(self, similar: SimilarPairs | None) -> bool:
-        """Draw the vertices as one of similar pairs; return False, and do nothing, if that is not possible."""
-        if similar is None or similar.sizes != self.sizes:
-            return False
-        context = thread.context
-        if not similar.add(self.mode, self._vertices_for(context)):
-            return False
+    def leave_attributes(self, context: Context) -> None:
+        """Make the values of the last calls the current ones."""
         for name, changes in self.changes.items():
             context.set_attribute(name, changes[-1][1])
-        return True
 
     @cached_property
     def sizes(self) -> dict[str, int]:
@@ -95,11 +89,11 @@ class Strip:
         for name, changes in self.changes.items():
             primitive.changes[name] += changes[numbers[name] :]
             context.set_attribute(name, changes[-1][1])
-        arrays, starts = self._vertices_for(context).arrays, self.starts
+        arrays, starts = self.vertices_for(context).arrays, self.starts
         primitive.arrays = {name: rows for name, rows in arrays.items() if not starts.get(name)}
         return True
 
-    def _vertices_for(self, context: Context) -> PairVertices:
+    def vertices_for(self, context: Context) -> PairVertices:
         """Return positions and attributes as arrays in the context's precision."""
         vertices = self._vertices.get(context.real)
         if vertices is None:
@@ -116,6 +110,39 @@ class Strip:
         return vertices
 
 
+class Strips:
+    """Strips of one mode in a row that set the same attributes; all but the first one set them at each vertex."""
+
+    def __init__(self, first: Strip) -> None:
+        self.strips = [first]
+        self._vertices: dict[Any, list[PairVertices]] = {}
+
+    def add(self, strip: Strip) -> bool:
+        """Add a strip; return False, and do nothing, if it is another kind."""
+        first = self.strips[0]
+        if strip.mode != first.mode or strip.sizes != first.sizes or strip.latest:
+            return False
+        self.strips.append(strip)
+        return True
+
+    def draw_after(self, similar: SimilarPairs | None, n_done: int) -> int:
+        """Draw similar pairs, from the strip `n_done` on, as many as possible; return how many are drawn then."""
+        if similar is None or similar.sizes != self.strips[0].sizes:
+            return n_done
+        context, before = thread.context, n_done
+        vertices = self._vertices_for(context)
+        n_done += similar.add(self.strips[0].mode, vertices[n_done:] if n_done else vertices)
+        if n_done > before:
+            self.strips[n_done - 1].leave_attributes(context)
+        return n_done
+
+    def _vertices_for(self, context: Context) -> list[PairVertices]:
+        vertices = self._vertices.get(context.real)
+        if vertices is None:
+            vertices = self._vertices[context.real] = [strip.vertices_for(context) for strip in self.strips]
+        return vertices
+
+
 class Calls:
     """The calls that draw a shape."""
 
@@ -127,18 +154,33 @@ class Calls:
         """Make the calls."""
         before: Strip | None = None  # drawn by its calls, with only strips and calls like its own since
         similar: SimilarPairs | None = None
-        for part in self._parts:
-            if isinstance(part, Strip):
-                if before is not None and similar is None:
-                    similar = similar_pairs(thread.context, before.sizes)
-                if not part.draw_after(similar):
-                    part.draw()
-                    before, similar = part, None
+        for part in self._strips_and_calls:
+            if isinstance(part, Strips):
+                n_done = 0
+                while n_done < len(part.strips):
+                    if before is not None and similar is None:
+                        similar = similar_pairs(thread.context, before.sizes)
+                    n_done = part.draw_after(similar, n_done)
+                    if n_done < len(part.strips):
+                        before, similar = part.strips[n_done], None
+                        before.draw()
+                        n_done += 1
             else:
                 call, arguments = part
                 call(*arguments)
                 if before is not None and NAMES[call] not in before.sizes:
                     before = similar = None
+
+    @cached_property
+    def _strips_and_calls(self) -> list[Strips | Call]:
+        parts: list[Strips | Call] = []
+        for part in self._parts:
+            last = parts[-1] if parts else None
+            if not isinstance(part, Strip):
+                parts.append(part)
+            elif not isinstance(last, Strips) or not last.add(part):
+                parts.append(Strips(part))
+        return parts
 
     def begin(self, mode: int) -> None:
         """Add glBegin."""

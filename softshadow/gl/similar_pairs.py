@@ -6,16 +6,16 @@ their draws are copies of one draw with other vertices.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.frozen import create, evolve
+from softshadow.frozen import create, evolve, evolve_each
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.vertex_format import TEXCOORDS
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.mesa.driver_draws import SEPARATE
+from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE
 from softshadow.state import BLACK
 
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
@@ -87,27 +87,38 @@ class SimilarPairs:
         self._constants = constant_attributes(context)
         self._draw: Draw | None = None
 
-    def add(self, mode: int, pair: PairVertices) -> bool:
-        """Draw a pair; return False, and do nothing, if it must be drawn by its calls.
+    def add(self, mode: int, pairs: Sequence[PairVertices]) -> int:
+        """Draw pairs of a mode; return how many: if not all, the next one must be drawn by its calls.
 
-        Afterwards the current values are those before it.
+        Afterwards the current values are those before them. Only the first pair may have vertices before its `starts`.
         """
-        context, count = self._context, pair.count
-        buffer = context.vertex_buffer
-        n_vertices = buffer.n_vertices + count
-        if count < FEWEST or mode in SEPARATE or n_vertices >= buffer.room - 1:
-            return False
-        buffer.n_vertices = n_vertices
-        constants = constant_attributes(context) if pair.has_late else self._constants
-        vertices = pair.with_constants(constants)
+        n_done = 0
+        while n_done < len(pairs) and (fitting := self._fitting(mode, pairs[n_done:])):
+            self._draw_all(mode, fitting)
+            n_done += len(fitting)
+        return n_done
+
+    def _fitting(self, mode: int, pairs: Sequence[PairVertices]) -> list[PairVertices]:
+        """Return the first ones that need not be drawn by their calls, and fit into the vertex buffer."""
+        if mode in SEPARATE:
+            return []
+        buffer, fitting = self._context.vertex_buffer, []
+        n_vertices, most = buffer.n_vertices, buffer.room - 1
+        for pair in pairs[: MAX_PAIRS - buffer.pairs.n_pairs]:
+            n_vertices += pair.count
+            if pair.count < FEWEST or n_vertices >= most:
+                break
+            fitting.append(pair)
+        return fitting
+
+    def _draw_all(self, mode: int, pairs: Sequence[PairVertices]) -> None:
+        constants = constant_attributes(self._context) if pairs[0].has_late else self._constants
+        vertices = [pair.with_constants(constants) for pair in pairs]
         if self._draw is None:
-            self._draw = context.draw_command(mode, vertices)
-        else:
-            self._draw = evolve(self._draw, mode=mode, vertices=vertices)
-        buffer.draw_joined_pairs()
-        buffer.draw(self._draw)
-        buffer.end_pair(mode, count)
-        return True
+            self._draw = self._context.draw_command(mode, vertices[0])
+        elif self._draw.mode != mode:
+            self._draw = evolve(self._draw, mode=mode)
+        self._context.vertex_buffer.draw_pairs(evolve_each(self._draw, "vertices", vertices))
 
 
 def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | None:

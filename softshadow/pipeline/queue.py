@@ -8,7 +8,7 @@ make them.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import NamedTuple
@@ -154,6 +154,24 @@ class DrawQueue:
         if self._n_draws == MOST_DRAWS:
             self.carry_out()
         return True
+
+    def add_alike(self, commands: Sequence[Draw]) -> int:
+        """Let draws wait that differ from the first one in their vertices only; return how many do, from it on.
+
+        Where the first one has an array of an attribute, all have one, and where it has one value, all have one.
+        """
+        if not self.add(commands[0]):
+            return 0
+        others, counts = commands[1:], [len(command.vertices.position) for command in commands]
+        n_vertices = sum(counts) - counts[0]
+        is_full = self._n_draws + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        if is_full or max(counts) >= WORTH_COMPARING or self._kind is None or self._segment is None:
+            return 1
+        self._batches[self._kind.batch] += others
+        self._segment.end += len(others)
+        self._n_draws += len(others)
+        self._n_vertices += n_vertices
+        return len(commands)
 
     def add_clear(self, command: Clear) -> bool:
         """Let a clear wait behind draws; return False if it must be carried out at once (all draws have been, then).

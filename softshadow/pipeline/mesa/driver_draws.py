@@ -11,13 +11,14 @@ in which the first triangle decides the polygon offset of all.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from softshadow import tokens as gl
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
+from softshadow.state import State
 
 CORNERS = {gl.GL_TRIANGLES: 3, gl.GL_QUADS: 4}  # vertices per primitive, where the number of all decides what is drawn
 SEPARATE = {gl.GL_POINTS: 1, gl.GL_LINES: 2, **CORNERS}  # vertices per primitive, for the modes whose pairs are joined
@@ -48,6 +49,11 @@ class CollectedPairs:
             self.n_pairs, self.mode, self.n_vertices = self.n_pairs + 1, mode, n_vertices
         return self.n_pairs
 
+    def add_several(self, mode: int, counts: Sequence[int]) -> int:
+        """Add pairs of a mode of which none are joined, with these numbers of vertices; return the number of pairs."""
+        self.n_pairs, self.mode, self.n_vertices = self.n_pairs + len(counts), mode, counts[-1]
+        return self.n_pairs
+
 
 @dataclass(slots=True)
 class DriverDraw:
@@ -66,12 +72,17 @@ class DriverDraw:
 
         `offset_mode_of` returns the mode that a draw decides (`softshadow.pipeline.geometry.geometry`).
         """
-        if not offset_is_on(command.state.polygon):
-            return command
-        front, back = effective_modes(command.state)
-        if front == back:
+        if not offset_depends_on_mode(command.state):
             return command
         part = evolve(command, offset_mode=self.offset_mode)
         if not self.offset_mode:
             self.offset_mode = offset_mode_of(part)
         return part
+
+
+def offset_depends_on_mode(state: State) -> bool:
+    """Return whether triangles have an offset that depends on their polygon mode."""
+    if not offset_is_on(state.polygon):
+        return False
+    front, back = effective_modes(state)
+    return front != back
