@@ -37,7 +37,8 @@ def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
         vertices, lighting = command.vertices, command.state.lighting
         arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords[0], vertices.edges)
         rows = (None if array is None else (array.shape, array.tobytes()) for array in (*arrays, command.indices))
-        drawn.append((command.mode, lighting.color_material, lighting.front, *rows))
+        places = command.offset_mode, command.stipple_place
+        drawn.append((command.mode, *places, lighting.color_material, lighting.front, *rows))
     return drawn
 
 
@@ -50,7 +51,7 @@ class RandomShapes:
 
     def _part(self, rng: np.random.Generator) -> Callable[[Any], None]:
         numbers = [float(np.float32(x)) for x in rng.uniform(-1, 1, 4)]
-        kind = int(rng.integers(15))
+        kind = int(rng.integers(17))
         if kind == 0:
             color = numbers[:3] if numbers[3] > 0 else (1.0, 0.5, 0.0)  # the same one again
             return lambda draw: gl.glColor3f(*color)
@@ -72,6 +73,14 @@ class RandomShapes:
             )
         if kind == 7 and numbers[0] > 0.5:
             return lambda draw: gl.glEdgeFlag(numbers[1] > 0)
+        if kind == 8:
+            switch = gl.glEnable if numbers[0] > 0 else gl.glDisable
+            return lambda draw: switch(gl.GL_LINE_STIPPLE if numbers[1] > 0 else gl.GL_POLYGON_OFFSET_LINE)
+        if kind == 9:
+            face = gl.GL_FRONT if numbers[0] > 0 else gl.GL_BACK
+            return lambda draw: gl.glPolygonMode(face, gl.GL_LINE if numbers[1] > 0 else gl.GL_FILL)
+        if kind == 10 and numbers[0] > 0:
+            return lambda draw: gl.glBitmap(8, 1, 0, 0, 9, 0, bytes([0x80]))
         shape = self._shape(rng)
         return lambda draw: draw(shape)
 
@@ -79,12 +88,16 @@ class RandomShapes:
         calls, has_normals, has_coordinates = Calls(), rng.random() < 0.7, rng.random() < 0.4
         modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
         most = int(rng.choice([5, 8, 40]))  # after a few vertices, Mesa makes the next ones carry a colour set between
-        for _ in range(int(rng.integers(1, 6))):
-            if rng.random() < 0.3:
+        is_run = rng.random() < 0.5  # of strips that are drawn together
+        if is_run:
+            modes = (int(rng.choice(modes)),)
+        for _ in range(70 if is_run and rng.random() < 0.1 else int(rng.integers(1, 6))):
+            if rng.random() < (0.05 if is_run else 0.3):
                 calls.normal(*rng.normal(size=3).tolist())
             calls.begin(int(rng.choice(modes)))
-            late = int(rng.integers(1, 4)) if rng.random() < 0.3 else 0  # attributes begin after the first vertex
-            for vertex in range(int(rng.integers(1, most))):
+            is_late = rng.random() < (0.1 if is_run else 0.3)  # attributes begin after the first vertex
+            late = int(rng.integers(1, 4)) if is_late else 0
+            for vertex in range(int(rng.integers(4 if is_run else 1, most))):
                 if has_normals and vertex >= late and rng.random() < 0.9:
                     calls.normal(*rng.normal(size=3).tolist())
                 if has_coordinates and vertex >= late:
@@ -143,6 +156,24 @@ def test_strips_with_kept_materials_give_the_draws_of_their_calls() -> None:
         draw(long)
 
     assert draws_of(partial(program, Calls.make)) == draws_of(partial(program, call_by_call))
+
+
+def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -> None:
+    lines = Calls()
+    for strip in range(6):
+        lines.begin(gl.GL_LINE_STRIP)
+        for vertex in range(5):
+            lines.vertex(-1.9 + 0.4 * vertex, -0.8 + 0.3 * strip, 0.0)
+        lines.end()
+
+    def program(draw: Callable[[Calls], None]) -> None:
+        gl.glEnable(gl.GL_LINE_STIPPLE)
+        gl.glLineStipple(3, 0x5F31)
+        draw(lines)
+
+    at_once = draws_of(partial(program, Calls.make))
+    assert len({stipple_place for _, _, stipple_place, *_ in at_once[2:]}) > 1
+    assert at_once == draws_of(partial(program, call_by_call))
 
 
 def test_strips_use_their_arrays() -> None:
