@@ -6,7 +6,9 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -272,7 +274,7 @@ class Context(CurrentValues, Precision):
             self._frame.shorten(self.storage)
 
     def _carry_out_alike(self, commands: Sequence[Draw]) -> None:
-        """Carry out and record draws that differ from the first one in their vertices only."""
+        """Carry out and record draws that differ from the first one in vertices and indices only."""
         n_waiting = 0
         if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
             n_waiting = self._waiting.add_alike(commands)
@@ -322,11 +324,15 @@ class Context(CurrentValues, Precision):
         self._carry_out(command)
         return command
 
-    def draw_like(self, before: Draw, mode: int, vertices: Vertices, indices: np.ndarray | None) -> Draw:
-        """Draw other primitives like those of the latest draw: nothing has changed since."""
-        command = evolve(before, mode=mode, vertices=self._with_current(vertices), indices=indices)
-        self._carry_out(command)
-        return command
+    def draw_like(self, before: Draw, others: Iterable[tuple[int, Vertices, np.ndarray | None]]) -> None:
+        """Draw other primitives like those of the latest draw: nothing has changed since.
+
+        `others` are modes, vertices with arrays of the same attributes, and indices.
+        """
+        for mode, same in groupby(others, itemgetter(0)):
+            alike = evolve(before, mode=mode)
+            with_current = [(self._with_current(vertices), indices) for _, vertices, indices in same]
+            self._carry_out_alike([evolve(alike, vertices=each, indices=indices) for each, indices in with_current])
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""

@@ -160,7 +160,7 @@ class VertexBuffer:
     Parameters
     ----------
     carry_out : callable     executes and records a draw
-    carry_out_alike : callable    the same with several, which differ from the first one in their vertices only
+    carry_out_alike : callable    the same with several, which differ in their vertices only
     storage : Storage        buffers to draw to: a driver's draw chooses its polygon offset by them
     """
 

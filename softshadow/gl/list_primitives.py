@@ -157,8 +157,7 @@ class SimilarPrimitives:
             carry_out(self.primitives)
             return
         draw, constants = self.primitives[0].draw(context)
-        for each in self.primitives[1:]:
-            draw = context.draw_like(draw, each.mode, each.vertices(constants), each.indices)
+        context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in self.primitives[1:]])
         self.primitives[-1].make_current(context)
         context.flush()
 

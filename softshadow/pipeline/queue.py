@@ -156,7 +156,7 @@ class DrawQueue:
         return True
 
     def add_alike(self, commands: Sequence[Draw]) -> int:
-        """Let draws wait that differ from the first one in their vertices only; return how many do, from it on.
+        """Let draws wait that differ from the first one in vertices and indices only; return how many do, from it on.
 
         Where the first one has an array of an attribute, all have one, and where it has one value, all have one.
         """

@@ -167,6 +167,7 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
 def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
     reads_normals, last = run.reads_normals, draws[0].state.lighting
+    equal = last  # the latest one with the same rows as `last`
     across = IN_STAGES if run.unfilled else int(run.across)
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
@@ -174,9 +175,11 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
         indices, lights = draw.indices, draw.state.lighting
         end, indexed = start + len(draw.vertices.position), indices is not None
         index_end = index_start if indices is None else index_start + len(indices)
-        if lights is not last and reads_normals and not _same_rows(lights, last):
-            last = lights
-            lightings.append(lights)
+        if lights is not equal and reads_normals:
+            if lights is not last and not _same_rows(lights, last):
+                last = lights
+                lightings.append(lights)
+            equal = lights
         row = len(lightings) - 1
         kind, cut = draw.modelview_kind, across or indexed
         table += (start, end, draw.mode, index_start, index_end, indexed, kind, row, cut, view)
