@@ -17,7 +17,7 @@ import numpy as np
 
 from softshadow import pipeline
 from softshadow import tokens as gl
-from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
 from softshadow.jit import announce_compiling
 from softshadow.pipeline.buffers.clear import clear
 from softshadow.pipeline.choose import joins_others
@@ -176,9 +176,10 @@ class DrawQueue:
     def add_clear(self, command: Clear) -> bool:
         """Let a clear wait behind draws; return False if it must be carried out at once (all draws have been, then).
 
-        A clear of all pixels begins a picture, so what it hides need not wait any longer.
+        A clear of the whole window begins a picture, so what it hides need not wait any longer.
         """
-        if command.mask & gl.GL_COLOR_BUFFER_BIT and not command.state.scissor.enabled:
+        state = command.state
+        if state.draw_framebuffer == DEFAULT and command.mask & gl.GL_COLOR_BUFFER_BIT and not state.scissor.enabled:
             self.carry_out()
         if not self._segments:
             return False

@@ -102,7 +102,7 @@ def test_a_clear_between_small_draws_does_not_divide_their_batch(batches, plane)
     assert pixels[0, :6, 1].tolist() == ([0, 51, 102, 153, 204, 204] if is_cleared else [0] * 6)
 
 
-def test_a_clear_of_all_pixels_carries_out_the_picture_before_it(batches):
+def test_a_clear_of_the_window_carries_out_the_picture_before_it(batches):
     gl.create_context(SIZE, SIZE)
     draw_triangle()
     gl.glClear(gl.GL_COLOR_BUFFER_BIT)
