@@ -3,7 +3,7 @@
 A thousand draws of twelve triangles cost a thousand times what Python needs for one. The triangles of all draws whose
 geometry depends on the same state are set up at once, as a batch; consecutive draws under one state, a segment, are
 filled and shaded at once. Draws wait only if they cannot fail (`plan.begin_run`), so errors appear at the calls that
-make them.
+make them. Clears among them wait, too: a program with many views clears a part of the window for each.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ class DrawQueue:
         self._segments: list[Segment | Clear] = []  # in drawing order
         self._segment: Segment | None = None  # the last one, if no clear follows it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
-        self._n_draws, self._n_vertices, self._are_small = 0, 0, True
+        self._n_commands, self._n_vertices, self._are_small = 0, 0, True
 
     def add(self, command: Draw) -> bool:
         """Let a draw wait; return False if it must be carried out at once (all draws before it have been, then)."""
@@ -148,10 +148,10 @@ class DrawQueue:
             self._segment = Segment(kind, command, len(batch) - 1, len(batch), query)
             self._segments.append(self._segment)
             self._queries.add(query)
-        self._n_draws += 1
+        self._n_commands += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
-        if self._n_draws == MOST_DRAWS:
+        if self._n_commands == MOST_DRAWS:
             self.carry_out()
         return True
 
@@ -164,12 +164,12 @@ class DrawQueue:
             return 0
         others, counts = commands[1:], [len(command.vertices.position) for command in commands]
         n_vertices = sum(counts) - counts[0]
-        is_full = self._n_draws + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        is_full = self._n_commands + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
         if is_full or max(counts) >= WORTH_COMPARING or self._kind is None or self._segment is None:
             return 1
         self._batches[self._kind.batch] += others
         self._segment.end += len(others)
-        self._n_draws += len(others)
+        self._n_commands += len(others)
         self._n_vertices += n_vertices
         return len(commands)
 
@@ -185,6 +185,9 @@ class DrawQueue:
             return False
         self._segments.append(command)
         self._segment = None
+        self._n_commands += 1
+        if self._n_commands == MOST_DRAWS:
+            self.carry_out()
         return True
 
     def _kind_of(self, command: Draw) -> Kind | None:
@@ -266,7 +269,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._n_draws, self._n_vertices, self._are_small = 0, 0, True
+        self._n_commands, self._n_vertices, self._are_small = 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()
         with np.errstate(all="ignore"):  # as in pipeline.draw

@@ -110,6 +110,16 @@ def test_a_clear_of_the_window_carries_out_the_picture_before_it(batches):
     assert not gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[..., 0].any()
 
 
+def test_clears_do_not_wait_without_end(batches, monkeypatch):
+    monkeypatch.setattr(queue, "MOST_DRAWS", 10)
+    gl.create_context(SIZE, SIZE)
+    draw_triangle()
+    for _ in range(9):
+        assert not batches
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
+    assert batches == [1]
+
+
 def test_a_result_carries_out_only_draws_that_the_query_counts(batches):
     gl.create_context(SIZE, SIZE)
     queries = gl.glGenQueries(2).tolist()
