@@ -201,16 +201,17 @@ def calls_from_python(node: ast.AST) -> Iterator[str]:
 
 def test_only_kernels_call_inlined_functions():
     # they are not cached: a call from Python would compile them in each process, which takes 200 ms
-    trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in PACKAGE.rglob("*.py")}
-    inlined: dict[str, set[str]] = {}
-    for file, tree in trees.items():
+    trees, inlined, imports = {}, {}, {}
+    for file in PACKAGE.rglob("*.py"):
         module = ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
-        functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+        tree = trees[module] = ast.parse(file.read_text(encoding="utf-8"))
+        nodes = list(ast.walk(tree))
+        functions = (node for node in nodes if isinstance(node, ast.FunctionDef))
         inlined[module] = {node.name for node in functions if "inlined" in decorators(node)}
+        imports[module] = [node for node in nodes if isinstance(node, ast.ImportFrom)]
     assert "band_range" in inlined["softshadow.pipeline.raster.bins"]
-    for module, (file, tree) in zip(inlined, trees.items(), strict=True):
+    for module, tree in trees.items():
         names = set(inlined[module])
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ImportFrom):
-                names |= {each.asname or each.name for each in node.names} & inlined.get(node.module or "", set())
-        assert not names & set(calls_from_python(tree)), file
+        for node in imports[module]:
+            names |= {each.asname or each.name for each in node.names} & inlined.get(node.module or "", set())
+        assert not names or not names & set(calls_from_python(tree)), module
