@@ -39,9 +39,12 @@ from softshadow.pipeline.commands import (
     Clear,
     Command,
     CopyToTexture,
+    CreateTexture,
     DefineImage,
     Draw,
+    GenerateMipmaps,
     Origin,
+    SetSampler,
     UpdateImage,
     Vertices,
 )
@@ -56,6 +59,7 @@ NO_UNIFORMS: Mapping[str, Any] = {}
 PIXELS_ONLY = frozenset(
     (Clear, Accumulate, BlitFramebuffer, UpdateImage, CopyToTexture, BeginQuery)
 )  # commands that change no size, format or sampler
+OF_TEXTURES = (CreateTexture, DefineImage, UpdateImage, SetSampler, GenerateMipmaps)  # that change one texture
 SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
@@ -265,6 +269,8 @@ class Context(CurrentValues, Precision):
                 self.bound_samplers = None
             if type(command) is BeginQuery:  # draws that wait remember their query
                 self._waiting.finish_query(command.query)  # if it begins anew
+                execute(command, self.objects)
+            elif isinstance(command, OF_TEXTURES) and not self._waiting.may_use(command.texture):
                 execute(command, self.objects)
             elif type(command) is not Clear or not self._waiting.add_clear(command):
                 execute(command, self.storage)

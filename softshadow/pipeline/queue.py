@@ -32,7 +32,8 @@ from softshadow.pipeline.plan import (
     plan_draw,
 )
 from softshadow.pipeline.records import FragmentCounts
-from softshadow.state import State
+from softshadow.state import State, TextureUnit
+from softshadow.texture import DEFAULTS
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -120,6 +121,8 @@ class DrawQueue:
         self._segments: list[Segment | Clear] = []  # in drawing order
         self._segment: Segment | None = None  # the last one, if no clear follows it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
+        self._units: dict[int, tuple[TextureUnit, ...]] = {}  # of their states, by identity
+        self._framebuffers: set[int] = set()  # that they, and clears among them, write to
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
 
     def add(self, command: Draw) -> bool:
@@ -148,6 +151,9 @@ class DrawQueue:
             self._segment = Segment(kind, command, len(batch) - 1, len(batch), query)
             self._segments.append(self._segment)
             self._queries.add(query)
+            state = command.state
+            self._units[id(state.units)] = state.units
+            self._framebuffers.add(state.draw_framebuffer)
         self._n_commands += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -185,6 +191,7 @@ class DrawQueue:
             return False
         self._segments.append(command)
         self._segment = None
+        self._framebuffers.add(state.draw_framebuffer)
         self._n_commands += 1
         if self._n_commands == MOST_DRAWS:
             self.carry_out()
@@ -219,6 +226,7 @@ class DrawQueue:
         if kind is not None:
             if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
                 self.forget()
+                self._batch_numbers.clear()
             if len(self._of_states) >= KNOWN_KINDS:
                 self._of_states.clear()
             if is_new:
@@ -249,13 +257,24 @@ class DrawQueue:
         return kind
 
     def forget(self) -> None:
-        """Forget the kinds of runs, when a texture or a framebuffer object changes."""
+        """Forget the kinds of runs, when a texture or a framebuffer object changes; draws that wait keep theirs."""
+        self._kind = None
         self._known.clear()
         self._latest.clear()
         self._of_states.clear()
         self._of_state.clear()
-        self._batch_numbers.clear()
         self._known_vertices = 0
+        if not self._segments:
+            self._batch_numbers.clear()
+
+    def may_use(self, texture: int) -> bool:
+        """Return whether draws or clears that wait may read a texture object, or write to it.
+
+        They may read each one that is bound: a change can make it complete.
+        """
+        if texture in DEFAULTS.values() or not self._framebuffers <= {DEFAULT}:
+            return True
+        return any(texture in unit.bound_textures for units in self._units.values() for unit in units)
 
     def finish_query(self, query: int) -> None:
         """Carry out the draws that wait if an occlusion query counts fragments of some; 0 stands for no query."""
@@ -269,6 +288,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
+        self._units, self._framebuffers = {}, set()
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()

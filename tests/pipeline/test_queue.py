@@ -120,6 +120,59 @@ def test_clears_do_not_wait_without_end(batches, monkeypatch):
     assert batches == [1]
 
 
+def load_texture(name: int, gray: int) -> None:
+    """Load a texture of one gray."""
+    gl.glBindTexture(gl.GL_TEXTURE_2D, name)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    image = np.full((2, 2, 3), gray, np.uint8)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 2, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
+
+
+def test_textures_loaded_between_draws_do_not_divide_their_batch(batches):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    for n in range(5):
+        gl.glScissor(n, 0, SIZE, SIZE)
+        load_texture(n + 1, 50 * n)
+        draw_triangle()
+    assert not batches
+    pixels = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    assert batches == [5]
+    assert pixels[0, :6, 0].tolist() == [0, 50, 100, 150, 200, 200]
+
+
+def test_a_texture_in_use_is_loaded_after_the_draws_that_wait(batches):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
+    draw_triangle()  # white: the texture has no image yet
+    load_texture(1, 50)
+    assert batches == [1]
+    pixels = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+    assert pixels[0, 0, 0] == 255
+    draw_triangle()
+    load_texture(2, 100)
+    assert batches == [1]
+    load_texture(1, 150)
+    assert batches == [1, 1]
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 50
+
+
+def test_a_texture_that_waiting_draws_write_to_is_loaded_after_them(batches):
+    gl.create_context(SIZE, SIZE)
+    load_texture(1, 0)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 1, 0)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 2)
+    draw_triangle()
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
+    image = np.full((1, 1, 3), 70, np.uint8)
+    gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
+    assert batches == [1]
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 70
+
+
 def test_a_result_carries_out_only_draws_that_the_query_counts(batches):
     gl.create_context(SIZE, SIZE)
     queries = gl.glGenQueries(2).tolist()
