@@ -121,7 +121,8 @@ class DrawQueue:
         self._segments: list[Segment | Clear] = []  # in drawing order
         self._segment: Segment | None = None  # the last one, if no clear follows it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
-        self._units: dict[int, tuple[TextureUnit, ...]] = {}  # of their states, by identity
+        self._bound: set[int] = set()  # names of textures that are bound in their states
+        self._units: dict[int, tuple[TextureUnit, ...]] = {}  # by identity, where these names are not added yet
         self._framebuffers: set[int] = set()  # that they, and clears among them, write to
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
 
@@ -274,7 +275,10 @@ class DrawQueue:
         """
         if texture in DEFAULTS.values() or not self._framebuffers <= {DEFAULT}:
             return True
-        return any(texture in unit.bound_textures for units in self._units.values() for unit in units)
+        for units in self._units.values():
+            self._bound.update(*[unit.bound_textures for unit in units])
+        self._units.clear()
+        return texture in self._bound
 
     def finish_query(self, query: int) -> None:
         """Carry out the draws that wait if an occlusion query counts fragments of some; 0 stands for no query."""
@@ -288,7 +292,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._units, self._framebuffers = {}, set()
+        self._units, self._bound, self._framebuffers = {}, set(), set()
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()
