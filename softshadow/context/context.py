@@ -33,18 +33,16 @@ from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
 from softshadow.pipeline.commands import (
+    OF_TEXTURES,
     Accumulate,
     BeginQuery,
     BlitFramebuffer,
     Clear,
     Command,
     CopyToTexture,
-    CreateTexture,
     DefineImage,
     Draw,
-    GenerateMipmaps,
     Origin,
-    SetSampler,
     UpdateImage,
     Vertices,
 )
@@ -59,7 +57,6 @@ NO_UNIFORMS: Mapping[str, Any] = {}
 PIXELS_ONLY = frozenset(
     (Clear, Accumulate, BlitFramebuffer, UpdateImage, CopyToTexture, BeginQuery)
 )  # commands that change no size, format or sampler
-OF_TEXTURES = (CreateTexture, DefineImage, UpdateImage, SetSampler, GenerateMipmaps)  # that change one texture
 SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 

@@ -354,3 +354,4 @@ Command = (
     | AttachRenderbuffer
     | SelectBuffers
 )
+OF_TEXTURES = CreateTexture, DefineImage, UpdateImage, SetSampler, GenerateMipmaps  # they change one and read no other

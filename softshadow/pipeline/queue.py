@@ -22,6 +22,7 @@ from softshadow.jit import announce_compiling
 from softshadow.pipeline.buffers.clear import clear
 from softshadow.pipeline.choose import joins_others
 from softshadow.pipeline.commands import Clear, Draw
+from softshadow.pipeline.geometry.program import textures_of
 from softshadow.pipeline.plan import (
     MOST_DRAWS,
     MOST_VERTICES,
@@ -32,8 +33,7 @@ from softshadow.pipeline.plan import (
     plan_draw,
 )
 from softshadow.pipeline.records import FragmentCounts
-from softshadow.state import State, TextureUnit
-from softshadow.texture import DEFAULTS
+from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -121,8 +121,8 @@ class DrawQueue:
         self._segments: list[Segment | Clear] = []  # in drawing order
         self._segment: Segment | None = None  # the last one, if no clear follows it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
-        self._bound: set[int] = set()  # names of textures that are bound in their states
-        self._units: dict[int, tuple[TextureUnit, ...]] = {}  # by identity, where these names are not added yet
+        self._textures: set[int] = set()  # names of those that they may read
+        self._states: dict[int, State] = {}  # by their units' identity, where these names are not added yet
         self._framebuffers: set[int] = set()  # that they, and clears among them, write to
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
 
@@ -153,7 +153,7 @@ class DrawQueue:
             self._segments.append(self._segment)
             self._queries.add(query)
             state = command.state
-            self._units[id(state.units)] = state.units
+            self._states[id(state.units)] = state
             self._framebuffers.add(state.draw_framebuffer)
         self._n_commands += 1
         self._n_vertices += n_vertices
@@ -269,16 +269,13 @@ class DrawQueue:
             self._batch_numbers.clear()
 
     def may_use(self, texture: int) -> bool:
-        """Return whether draws or clears that wait may read a texture object, or write to it.
-
-        They may read each one that is bound: a change can make it complete.
-        """
-        if texture in DEFAULTS.values() or not self._framebuffers <= {DEFAULT}:
+        """Return whether draws or clears that wait may read a texture object, or write to it."""
+        if not self._framebuffers <= {DEFAULT}:
             return True
-        for units in self._units.values():
-            self._bound.update(*[unit.bound_textures for unit in units])
-        self._units.clear()
-        return texture in self._bound
+        for state in self._states.values():
+            self._textures |= textures_of(state)
+        self._states.clear()
+        return texture in self._textures
 
     def finish_query(self, query: int) -> None:
         """Carry out the draws that wait if an occlusion query counts fragments of some; 0 stands for no query."""
@@ -292,7 +289,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._units, self._bound, self._framebuffers = {}, set(), set()
+        self._states, self._textures, self._framebuffers = {}, set(), set()
         self._n_commands, self._n_vertices, self._are_small = 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()

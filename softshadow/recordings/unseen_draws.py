@@ -11,14 +11,10 @@ from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT
 from softshadow.pipeline import commands
 from softshadow.pipeline.commands import Clear, Command, Draw
-from softshadow.state import State
+from softshadow.pipeline.geometry.program import textures_of
 
 MOST_COMMANDS = 20_000
 MOST_VERTICES = 1_000_000  # of the commands that are kept
-OF_TEXTURES = (
-    commands.DefineImage, commands.UpdateImage, commands.GenerateMipmaps, commands.CreateTexture, commands.SetSampler,
-    commands.CopyToTexture,
-)  # fmt: skip
 # commands that neither read nor write the window or textures
 INDEPENDENT = (
     commands.CreateTexture, commands.CreateFramebuffer, commands.DeleteFramebuffers, commands.DefineRenderbuffer,
@@ -62,9 +58,10 @@ class UnseenDraws:
             return False
         if isinstance(command, commands.SelectBuffers):
             return self._selects_others(command)
-        if isinstance(command, OF_TEXTURES):
-            from_window = isinstance(command, commands.CopyToTexture) and command.framebuffer == DEFAULT
-            return from_window or command.texture in self._textures
+        if isinstance(command, commands.CopyToTexture) and command.framebuffer == DEFAULT:
+            return True
+        if isinstance(command, (*commands.OF_TEXTURES, commands.CopyToTexture)):
+            return command.texture in self._textures
         if isinstance(command, Draw | Clear) and command.state.draw_framebuffer != DEFAULT:
             target = self.context.objects.framebuffers[command.state.draw_framebuffer]
             return any(attachment.texture in self._textures for attachment in target.attachments.values())
@@ -99,11 +96,6 @@ class UnseenDraws:
         self.drop()
         if waiting:
             self.context.carry_out(waiting)
-
-
-def textures_of(state: State) -> set[int]:
-    """Return the names of the textures that a draw may read."""
-    return {unit.bound(target) for unit in state.units for target in unit.targets}
 
 
 def buffers_cleared(command: Clear, size: tuple[int, int]) -> int:

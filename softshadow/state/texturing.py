@@ -96,11 +96,6 @@ class TextureUnit:
         """Return the name of the texture bound to a target."""
         return int(getattr(self, BINDINGS[target]))
 
-    @property
-    def bound_textures(self) -> tuple[int, ...]:
-        """The names of the textures bound to all targets."""
-        return self.bound_2d, self.bound_cube, self.bound_1d, self.bound_rectangle, self.bound_3d
-
     def enabled(self, target: int) -> bool:
         """Return whether a target is enabled."""
         return bool(getattr(self, SWITCHES[target]))

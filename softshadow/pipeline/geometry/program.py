@@ -11,6 +11,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.programs import Program
+from softshadow.state import State
 from softshadow.texture import Texture, stored_name
 
 
@@ -43,3 +44,8 @@ def bound_textures(command: Draw, storage: Storage) -> dict[tuple[int, int], Tex
             if texture is not None:
                 bound[index, target] = texture.in_unit(unit.lod_bias, command.state.cube_maps.seamless)
     return bound
+
+
+def textures_of(state: State) -> set[int]:
+    """Return the names, as the storage has them, of the textures that a draw without a program may read."""
+    return {stored_name(target, unit.bound(target)) for unit in state.units for target in unit.targets}
