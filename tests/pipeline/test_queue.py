@@ -159,6 +159,21 @@ def test_a_texture_in_use_is_loaded_after_the_draws_that_wait(batches):
     assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 50
 
 
+@pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_2D])
+def test_the_default_texture_is_one_of_each_target(batches, target):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(target)
+    gl.glTexParameteri(target, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    size = (2,) if target == gl.GL_TEXTURE_1D else (2, 2)
+    load = gl.glTexImage1D if target == gl.GL_TEXTURE_1D else gl.glTexImage2D
+    for gray in (40, 80):
+        image = np.full((*size, 3), gray, np.uint8)
+        load(target, 0, gl.GL_RGB, *size, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
+        assert batches == ([] if gray == 40 else [1])
+        draw_triangle()
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 80
+
+
 def test_a_texture_that_waiting_draws_write_to_is_loaded_after_them(batches):
     gl.create_context(SIZE, SIZE)
     load_texture(1, 0)
