@@ -65,6 +65,10 @@ class Framebuffer:
         attached = self.attachments.get(attachment)
         return attached.image if attached else None
 
+    def attaches(self, texture: int) -> bool:
+        """Return whether an image of a texture is attached."""
+        return bool(texture) and any(each.texture == texture for each in self.attachments.values())
+
     @property
     def color(self) -> Image | None:
         """The image of the first draw buffer; None for GL_NONE or without an attachment."""
@@ -193,6 +197,10 @@ class Storage:
         """Add fragments that have passed to the count of a query; 0 is none."""
         if query:
             self.queries[query] += fragments
+
+    def is_attached(self, texture: int) -> bool:
+        """Return whether an image of a texture is attached to a framebuffer."""
+        return any(target.attaches(texture) for target in self.framebuffers.values())
 
     def reattach(self, texture: int, face: int, level: int, image: Image) -> None:
         """Attach the new image of a texture's level wherever the level is attached."""

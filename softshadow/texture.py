@@ -14,6 +14,7 @@ DEFAULTS = {  # keys in the storage of the textures named 0, by target
     gl.GL_TEXTURE_RECTANGLE: -3,
     gl.GL_TEXTURE_3D: -4,
 }
+KNOWN_SAMPLERS = 16  # of a texture
 
 
 def stored_name(target: int, name: int) -> int:
@@ -85,6 +86,7 @@ class Texture:
     target: int
     sampler: Sampler = Sampler()
     images: dict[tuple[int, int], Image] = field(default_factory=dict)
+    _by_sampler: dict[Sampler, Texture] = field(default_factory=dict, init=False, repr=False)
 
     def base(self, face: int = 0) -> Image | None:
         """Return the image of the base level, or None if it is not defined."""
@@ -113,6 +115,17 @@ class Texture:
         if sampler.max_anisotropy < 2 or self.target in (gl.GL_TEXTURE_1D, gl.GL_TEXTURE_CUBE_MAP) or image is None:
             return False
         return image.format.kind != "depth" or sampler.compare_mode == gl.GL_NONE
+
+    def with_sampler(self, sampler: Sampler) -> Texture:
+        """Return the texture with other parameters, images shared; with those of before, it is the same object."""
+        known = self._by_sampler
+        if len(known) >= KNOWN_SAMPLERS:
+            known.clear()
+        known[self.sampler] = self
+        if sampler not in known:
+            known[sampler] = replace(self, sampler=sampler)
+            known[sampler]._by_sampler = known
+        return known[sampler]
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
         """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.

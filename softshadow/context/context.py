@@ -33,19 +33,12 @@ from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
 from softshadow.pipeline.commands import (
-    OF_TEXTURES,
-    Accumulate,
-    BeginQuery,
-    BlitFramebuffer,
-    Clear,
     Command,
-    CopyToTexture,
-    DefineImage,
     Draw,
     Origin,
-    UpdateImage,
     Vertices,
 )
+from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
@@ -54,10 +47,6 @@ from softshadow.programs import Program
 from softshadow.state import BLACK, TEXTURE_UNITS, State
 
 NO_UNIFORMS: Mapping[str, Any] = {}
-PIXELS_ONLY = frozenset(
-    (Clear, Accumulate, BlitFramebuffer, UpdateImage, CopyToTexture, BeginQuery)
-)  # commands that change no size, format or sampler
-SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -260,17 +249,10 @@ class Context(CurrentValues, Precision):
         if type(command) is Draw and command.state.lines.stippled:
             command = self._line_pattern.continued(command)
         if type(command) is not Draw:
-            if type(command) not in PIXELS_ONLY and not self._has_image_like(command):
+            if not changes_cells_only(command, self.objects):
                 self._line_pattern.find_place()
-                self._waiting.forget()
                 self.bound_samplers = None
-            if type(command) is BeginQuery:  # draws that wait remember their query
-                self._waiting.finish_query(command.query)  # if it begins anew
-                execute(command, self.objects)
-            elif isinstance(command, OF_TEXTURES) and not self._waiting.may_use(command.texture):
-                execute(command, self.objects)
-            elif type(command) is not Clear or not self._waiting.add_clear(command):
-                execute(command, self.storage)
+            self._waiting.add_other(command)
         elif not self._waiting.add(command):
             execute(command, self.objects)
         if self._frame.append(command):
@@ -285,13 +267,6 @@ class Context(CurrentValues, Precision):
                 self._frame.shorten(self.storage)
         for command in commands[n_waiting:]:
             self._carry_out(command)
-
-    def _has_image_like(self, command: Command) -> bool:
-        """Return whether a command replaces an image of a texture by one of the same format and size."""
-        if type(command) is not DefineImage:
-            return False
-        before = self.objects.textures[command.texture].images.get((command.face, command.level))
-        return before is not None and all(getattr(before, name) == getattr(command, name) for name in SHAPE)
 
     def carry_out(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""

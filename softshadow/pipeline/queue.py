@@ -3,66 +3,56 @@
 A thousand draws of twelve triangles cost a thousand times what Python needs for one. The triangles of all draws whose
 geometry depends on the same state are set up at once, as a batch; consecutive draws under one state, a segment, are
 filled and shaded at once. Draws wait only if they cannot fail (`plan.begin_run`), so errors appear at the calls that
-make them. Clears among them wait, too: a program with many views clears a part of the window for each.
+make them. Clears and new texels among them wait, too: a program with many views clears a part of the window for each.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import count
-from typing import NamedTuple
 
 import numpy as np
 
 from softshadow import pipeline
 from softshadow import tokens as gl
-from softshadow.framebuffer import DEFAULT, Framebuffer, Storage
+from softshadow.framebuffer import DEFAULT, Storage
 from softshadow.jit import announce_compiling
-from softshadow.pipeline.buffers.clear import clear
 from softshadow.pipeline.choose import joins_others
-from softshadow.pipeline.commands import Clear, Draw
-from softshadow.pipeline.geometry.program import textures_of
-from softshadow.pipeline.plan import (
-    MOST_DRAWS,
-    MOST_VERTICES,
-    SHORT_CUTS_EXIST,
-    Plan,
-    begin_run,
-    may_wait,
-    plan_draw,
+from softshadow.pipeline.commands import (
+    AttachRenderbuffer,
+    AttachTexture,
+    BeginQuery,
+    Clear,
+    Command,
+    CreateFramebuffer,
+    CreateTexture,
+    DefineImage,
+    DeleteTextures,
+    Draw,
+    GenerateMipmaps,
+    SelectBuffers,
+    SetSampler,
+    UpdateImage,
 )
+from softshadow.pipeline.draw_kinds import Kind, Kinds, changes_cells_only
+from softshadow.pipeline.execute import execute
+from softshadow.pipeline.geometry.program import textures_of
+from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, plan_draw
 from softshadow.pipeline.records import FragmentCounts
 from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.geometry import Setting, geometry_of, setting_of
-    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING, Run, key_of, structure_of, width_of
-    from softshadow.pipeline.fast.batch.segments import Part, cut, geometry_key, whole
+    from softshadow.pipeline.fast.batch.geometry import geometry_of
+    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING
+    from softshadow.pipeline.fast.batch.segments import Part, cut, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
     from softshadow.pipeline.fast.segment_groups import Group
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
-
-KNOWN_KINDS = 1024
-KNOWN_VERTICES = 64 * MOST_VERTICES  # about, of the draws that kinds keep
-
-
-class Kind(NamedTuple):
-    """A state of draws that wait, with all that depends on it: run and setting for their geometry, plan for the rest.
-
-    Kinds of one `batch` share batches: all that their geometry depends on is equal. `counting` keeps the plan of draws
-    whose fragments an occlusion query counts.
-    """
-
-    run: Run
-    setting: Setting
-    plan: Plan
-    batch: int
-    counting: list[Plan]
+MOST_BYTES = 1 << 24  # of texels that wait
 
 
 @dataclass(eq=False, slots=True)
@@ -86,11 +76,6 @@ class Segment:
         return is_in_place and self.query == query
 
 
-def _key_without_tests(command: Draw) -> tuple[int, ...]:
-    """Return by what to look for a kind that may differ in tests and blending only."""
-    return *key_of(command, with_tests=False), width_of(command.mode)
-
-
 class DrawQueue:
     """The draws of a context that are not carried out yet.
 
@@ -105,26 +90,17 @@ class DrawQueue:
         if compiles and SHORT_CUTS_EXIST:
             FILL_KERNELS.want()
             VISIBILITY_KERNEL.want()
-        # by the identity of what they depend on; the latest by all but their tests and blending
-        self._known: dict[tuple[int, ...], list[Kind]] = {}
-        self._latest: dict[tuple[int, ...], Kind] = {}
-        # the latest, and a draw of it: by its mode and what of its state matters; by the identity of the state and the
-        # mode, if the draw is small, as nobody counts the vertices that are kept so
-        self._of_states: dict[tuple[object, ...], tuple[Kind, Draw]] = {}
-        self._of_state: dict[tuple[int, int], tuple[Kind, Draw]] = {}
-        self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
-        self._next_number = count()
-        self._known_vertices = 0
+        self._kinds = Kinds(storage, compiles)
         self._kind: Kind | None = None  # of the last draw
         self._like: Draw  # a draw of this kind
         self._batches: dict[int, list[Draw]] = {}  # by their numbers
-        self._segments: list[Segment | Clear] = []  # in drawing order
-        self._segment: Segment | None = None  # the last one, if no clear follows it
+        self._segments: list[Segment | Command] = []  # in drawing order
+        self._segment: Segment | None = None  # the last one, if only draws follow it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._textures: set[int] = set()  # names of those that they may read
         self._states: dict[int, State] = {}  # by their units' identity, where these names are not added yet
         self._framebuffers: set[int] = set()  # that they, and clears among them, write to
-        self._n_commands, self._n_vertices, self._are_small = 0, 0, True
+        self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
 
     def add(self, command: Draw) -> bool:
         """Let a draw wait; return False if it must be carried out at once (all draws before it have been, then)."""
@@ -133,7 +109,7 @@ class DrawQueue:
             self.carry_out()
         kind = self._kind
         if kind is None or not kind.run.continues(command, self._like):
-            kind = self._kind_of(command)
+            kind = self._kinds.of(command)
             if kind is None:
                 self.carry_out()
                 return False
@@ -180,8 +156,41 @@ class DrawQueue:
         self._n_vertices += n_vertices
         return len(commands)
 
-    def add_clear(self, command: Clear) -> bool:
-        """Let a clear wait behind draws; return False if it must be carried out at once (all draws have been, then).
+    def add_other(self, command: Command) -> None:
+        """Carry out a command that is no draw, now or later.
+
+        It is carried out at once if it changes nothing for the draws that wait. Else it waits behind them, or they are
+        carried out first.
+        """
+        only_cells = changes_cells_only(command, self._storage)
+        if not only_cells:
+            self._kind = None
+            self._kinds.note(command)
+        match command:
+            case Clear():
+                if self._add_clear(command):
+                    return
+            case UpdateImage() | DefineImage() if only_cells:
+                if self._add_texels(command):
+                    return
+            case BeginQuery(query=query):  # draws that wait remember their query
+                self.finish_query(query)  # if it begins anew
+            case SetSampler():
+                pass  # draws that wait keep their `Texture`
+            case CreateTexture(texture=texture) | DefineImage(texture=texture) | GenerateMipmaps(texture=texture):
+                self._finish_users(texture)
+            case DeleteTextures(textures=textures):
+                for texture in textures:
+                    self._finish_users(texture)
+            case CreateFramebuffer() | AttachTexture() | AttachRenderbuffer() | SelectBuffers():
+                if command.framebuffer in self._framebuffers:
+                    self.carry_out()
+            case _:
+                self.carry_out()
+        execute(command, self._storage)
+
+    def _add_clear(self, command: Clear) -> bool:
+        """Let a clear wait behind draws; return False if no draws wait.
 
         A clear of the whole window begins a picture, so what it hides need not wait any longer.
         """
@@ -190,97 +199,51 @@ class DrawQueue:
             self.carry_out()
         if not self._segments:
             return False
+        self._framebuffers.add(state.draw_framebuffer)
+        self._append(command)
+        return True
+
+    def _add_texels(self, command: DefineImage | UpdateImage) -> bool:
+        """Let new texels wait behind draws that may use the texture; return False if none waits."""
+        if not self._may_use(command.texture):
+            return False
+        n_bytes = sum(array.nbytes for array in (command.cells, command.stencil) if array is not None)
+        if command.blocks is not None or self._n_bytes + n_bytes > MOST_BYTES:
+            self.carry_out()
+            return False
+        self._n_bytes += n_bytes
+        self._append(command)
+        return True
+
+    def _append(self, command: Command) -> None:
         self._segments.append(command)
         self._segment = None
-        self._framebuffers.add(state.draw_framebuffer)
         self._n_commands += 1
         if self._n_commands == MOST_DRAWS:
             self.carry_out()
-        return True
-
-    def _kind_of(self, command: Draw) -> Kind | None:
-        """Return the kind of a draw, or None if it cannot wait."""
-        if not may_wait(command) or not (self._compiles or BATCH_KERNELS.are_compiled()):
-            return None
-        state = command.state
-        known = self._of_state.get((id(state), command.mode))
-        if known is not None and known[0].run.continues(command, known[1]):
-            return known[0]
-        kind = self._kind_of_equal_state(command)
-        if kind is not None and len(command.vertices.position) < WORTH_COMPARING:
-            if len(self._of_state) >= KNOWN_KINDS:
-                self._of_state.clear()
-            self._of_state[id(state), command.mode] = kind, command
-        return kind
-
-    def _kind_of_equal_state(self, command: Draw) -> Kind | None:
-        key = key_of(command)
-        place = *key, *structure_of(command.state.lighting), command.mode
-        known = self._of_states.get(place)
-        if known is not None and known[0].run.continues_under(command, known[1]):
-            return known[0]
-        kind = next((each for each in self._known.get(key, ()) if each.run.takes(command)), None)
-        is_new = kind is None
-        if kind is None:
-            target = self._storage.framebuffers[command.state.draw_framebuffer]
-            kind = self._with_other_tests(command, target) or self._new_kind(command, target)
-        if kind is not None:
-            if len(self._known) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
-                self.forget()
-                self._batch_numbers.clear()
-            if len(self._of_states) >= KNOWN_KINDS:
-                self._of_states.clear()
-            if is_new:
-                self._known.setdefault(key, []).append(kind)
-            self._of_states[place] = kind, command
-            self._known_vertices += len(command.vertices.position)
-        return kind
-
-    def _with_other_tests(self, command: Draw, target: Framebuffer) -> Kind | None:
-        """Return the kind of a draw by one that differs in tests and blending only."""
-        similar = self._latest.get(_key_without_tests(command))
-        run = None if similar is None else similar.run.under(command)
-        if similar is None or run is None:
-            return None
-        same_tests = similar.run.has_tests_of(command.state)
-        if same_tests:
-            return similar._replace(run=run)
-        return similar._replace(run=run, plan=plan_draw(command, target), counting=[])
-
-    def _new_kind(self, command: Draw, target: Framebuffer) -> Kind | None:
-        run = begin_run(command, target, self._storage)
-        if run is None:
-            return None
-        setting = setting_of(run, target, self._storage)
-        batch = self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
-        kind = Kind(run, setting, plan_draw(command, target), batch, [])
-        self._latest[_key_without_tests(command)] = kind
-        return kind
 
     def forget(self) -> None:
-        """Forget the kinds of runs, when a texture or a framebuffer object changes; draws that wait keep theirs."""
+        """Forget what draws have in common, as the window changes; draws that wait keep it."""
         self._kind = None
-        self._known.clear()
-        self._latest.clear()
-        self._of_states.clear()
-        self._of_state.clear()
-        self._known_vertices = 0
-        if not self._segments:
-            self._batch_numbers.clear()
-
-    def may_use(self, texture: int) -> bool:
-        """Return whether draws or clears that wait may read a texture object, or write to it."""
-        if not self._framebuffers <= {DEFAULT}:
-            return True
-        for state in self._states.values():
-            self._textures |= textures_of(state)
-        self._states.clear()
-        return texture in self._textures
+        self._kinds.forget()
 
     def finish_query(self, query: int) -> None:
         """Carry out the draws that wait if an occlusion query counts fragments of some; 0 stands for no query."""
         if query and query in self._queries:
             self.carry_out()
+
+    def _finish_users(self, texture: int) -> None:
+        """Carry out the draws that wait if one may use a texture."""
+        if self._may_use(texture):
+            self.carry_out()
+
+    def _may_use(self, texture: int) -> bool:
+        """Return whether draws or clears that wait may read a texture object, or write to it."""
+        for state in self._states.values():
+            self._textures |= textures_of(state)
+        self._states.clear()
+        targets = [self._storage.framebuffers[name] for name in self._framebuffers]
+        return texture in self._textures or any(target.attaches(texture) for target in targets)
 
     def carry_out(self) -> None:
         """Carry out the draws that wait."""
@@ -290,7 +253,7 @@ class DrawQueue:
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
         self._states, self._textures, self._framebuffers = {}, set(), set()
-        self._n_commands, self._n_vertices, self._are_small = 0, 0, True
+        self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()
         with np.errstate(all="ignore"):  # as in pipeline.draw
@@ -298,13 +261,14 @@ class DrawQueue:
             BATCH_KERNELS.note_compiled()
             group: Group | None = None
             for segment in segments:
-                if isinstance(segment, Clear):
-                    if group:
-                        group.draw()
+                if isinstance(segment, Segment):
+                    part = parts[id(segment)]
+                    group = self._draw_segment(segment, part, group) if part.end > part.first else group
+                    continue
+                if group and not (isinstance(segment, UpdateImage | DefineImage) and group.keeps(segment.texture)):
+                    group.draw()
                     group = None
-                    clear(segment, self._storage)
-                elif (part := parts[id(segment)]).end > part.first:
-                    group = self._draw_segment(segment, part, group)
+                execute(segment, self._storage)
             if group:
                 group.draw()
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import queue, use_short_cuts
+from softshadow.pipeline import draw_kinds, queue, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run
@@ -20,8 +20,8 @@ SIZE = 32
 @pytest.fixture
 def planned(monkeypatch):
     """Return a list that grows by 1 for each draw that is planned."""
-    planned, plan_draw = [], queue.plan_draw
-    monkeypatch.setattr(queue, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
+    planned, plan_draw = [], draw_kinds.plan_draw
+    monkeypatch.setattr(draw_kinds, "plan_draw", lambda *arguments: planned.append(1) or plan_draw(*arguments))
     return planned
 
 
@@ -142,21 +142,106 @@ def test_textures_loaded_between_draws_do_not_divide_their_batch(batches):
     assert pixels[0, :6, 0].tolist() == [0, 50, 100, 150, 200, 200]
 
 
-def test_a_texture_in_use_is_loaded_after_the_draws_that_wait(batches):
+def test_a_texture_in_use_gets_an_image_after_the_draws_that_wait(batches):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_TEXTURE_2D)
     gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
     draw_triangle()  # white: the texture has no image yet
     load_texture(1, 50)
     assert batches == [1]
-    pixels = gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
-    assert pixels[0, 0, 0] == 255
-    draw_triangle()
-    load_texture(2, 100)
-    assert batches == [1]
-    load_texture(1, 150)
-    assert batches == [1, 1]
-    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 50
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 255
+
+
+@pytest.mark.parametrize("side", [2, 256])
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_new_texels_of_a_texture_in_use_wait(batches, side, is_whole):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    form = gl.GL_RGBA, gl.GL_UNSIGNED_BYTE
+    for n in range(20):  # more versions of the texture than one call of the kernels takes
+        image = np.full((side, side, 4), 10 * n, np.uint8)
+        if is_whole or n == 0:
+            gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, side, side, 0, *form, image)
+        else:
+            gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, side, side, *form, image)
+        gl.glScissor(n, 0, SIZE, SIZE)
+        draw_triangle()
+    assert not batches
+    pixels = gl.glReadPixels(0, 0, SIZE, SIZE, *form)
+    assert batches == [20]
+    assert pixels[0, :20, 0].tolist() == [10 * n for n in range(20)]
+    assert (gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *form) == 190).all()
+
+
+def test_texels_that_wait_are_bounded(batches, monkeypatch):
+    monkeypatch.setattr(queue, "MOST_BYTES", 50)
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    for n in range(7):  # 16 bytes each
+        load_texture(1, n)
+        draw_triangle()
+    assert batches == [4]
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 6
+
+
+def test_draws_keep_the_filter_that_their_texture_had(planned, batches):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glEnable(gl.GL_SCISSOR_TEST)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    image = np.array([[0, 200]], np.uint8)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_LUMINANCE, 2, 1, 0, gl.GL_LUMINANCE, gl.GL_UNSIGNED_BYTE, image)
+    gl.glTexCoord2f(0.5, 0.5)
+    for frame in range(3):
+        for n, filter in enumerate([gl.GL_NEAREST, gl.GL_LINEAR] * 4):
+            gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filter)
+            gl.glScissor(n, 0, SIZE, SIZE)
+            draw_triangle()
+        assert batches == [8] * frame
+        row = gl.glReadPixels(0, 0, 8, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, :, 0]
+        assert row.tolist() == [200, 100] * 4
+    assert len(planned) == 2, "the kinds of both filters are found again"
+
+
+def test_kinds_are_forgotten_with_their_texture_or_framebuffer(planned):
+    gl.create_context(SIZE, SIZE)
+    framebuffer = gl.glGenFramebuffers(1)
+
+    def draw_with_each() -> int:
+        planned.clear()
+        for name in (1, 2):
+            gl.glEnable(gl.GL_TEXTURE_2D)
+            gl.glBindTexture(gl.GL_TEXTURE_2D, name)
+            draw_triangle()
+        gl.glDisable(gl.GL_TEXTURE_2D)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+        draw_triangle()
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        return len(planned)
+
+    for name in (1, 2, 3, 4):
+        load_texture(name, 10)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 3, 0)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    assert draw_with_each() == 3
+    load_texture(4, 1)
+    load_texture(1, 20)
+    gl.glDeleteTextures([4])
+    assert draw_with_each() == 0, "other textures, and other texels of the same size, change nothing"
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 1, 1, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, b"abc")
+    assert draw_with_each() == 1
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 0, 0)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 3, 0)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+    assert draw_with_each() == 1
+    load_texture(3, 0)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 1, 1, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, b"abc")
+    assert draw_with_each() == 3, "draws to a texture depend on its size"
 
 
 @pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_2D])
@@ -169,23 +254,24 @@ def test_the_default_texture_is_one_of_each_target(batches, target):
     for gray in (40, 80):
         image = np.full((*size, 3), gray, np.uint8)
         load(target, 0, gl.GL_RGB, *size, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
-        assert batches == ([] if gray == 40 else [1])
         draw_triangle()
+    load(target, 0, gl.GL_RGBA, *size, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
+    assert batches == [2], "an image of another format comes after draws that read the texture"
     assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 80
 
 
-def test_a_texture_that_waiting_draws_write_to_is_loaded_after_them(batches):
+def test_new_texels_of_a_texture_that_waiting_draws_write_to_come_after_them(batches):
     gl.create_context(SIZE, SIZE)
     load_texture(1, 0)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
     gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, 1, 0)
-    gl.glBindTexture(gl.GL_TEXTURE_2D, 2)
     draw_triangle()
-    gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
     image = np.full((1, 1, 3), 70, np.uint8)
     gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
-    assert batches == [1]
+    draw_triangle(0.5)  # of no pixel
+    assert not batches
     assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, 0, 0] == 70
+    assert batches == [2]
 
 
 def test_a_result_carries_out_only_draws_that_the_query_counts(batches):
@@ -289,7 +375,7 @@ def test_what_a_run_depends_on_is_known_when_its_state_returns(planned):
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
-    for n in range(2 * queue.KNOWN_KINDS):  # as many states, since the light moves, of two kinds
+    for n in range(2 * draw_kinds.KNOWN_KINDS):  # as many states, since the light moves, of two kinds
         (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_DEPTH_TEST)
         gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, [n, 0, 1, 0])
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)

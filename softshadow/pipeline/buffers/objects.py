@@ -57,8 +57,8 @@ def update_image(command: UpdateImage, storage: Storage) -> None:
 
 
 def set_sampler(command: SetSampler, storage: Storage) -> None:
-    """Set the sampler state of a texture object."""
-    storage.textures[command.texture].sampler = command.sampler
+    """Set the sampler state of a texture object: draws that wait keep the `Texture` with the state of before."""
+    storage.textures[command.texture] = storage.textures[command.texture].with_sampler(command.sampler)
 
 
 def delete_textures(command: DeleteTextures, storage: Storage) -> None:

@@ -44,6 +44,7 @@ from softshadow.state import State
 from softshadow.texture import Texture
 
 SEGMENTS = 1 << 10  # of one group
+WORTH_KEEPING = 1 << 17  # bytes that are copied in the time in which a group is drawn
 
 
 @dataclass(slots=True)
@@ -71,18 +72,19 @@ class Group:
         self._ranges: list[DepthRange] = []
         self._states: dict[int, tuple[int, SegmentState]] = {}  # with their places, by identity
         self._batches: dict[int, Triangles] = {}  # in use, by the identity of the batch
-        self._textures: dict[int, tuple[int, np.ndarray]] = {}  # texels with their places, by the texture's identity
+        self._texels: list[np.ndarray] = []
+        self._places: dict[int, tuple[int, Texture]] = {}  # of the texels of textures, by the textures' identity
         self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
         self._n_triangles, self._work, self._columns = 0, 0, 0
 
     def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer, query: int) -> bool:
         """Add a draw, whose fragments a query counts if it is not 0; return False where it belongs to another group."""
         count, units = part.end - part.first, part.program.units or []
-        new = [unit for unit in units if id(unit.texture) not in self._textures]
+        new = [unit for unit in units if id(unit.texture) not in self._places]
         if self._rows and (
             target is not self._target
             or self._n_triangles + count > TRIANGLES
-            or len(self._textures) + len(new) >= TEXTURES  # one place is left for units that are not in use
+            or len(self._texels) + len(new) >= TEXTURES  # one place is left for units that are not in use
             or len(self._rows) == SEGMENTS
         ):
             return False
@@ -103,9 +105,25 @@ class Group:
         return True
 
     def _place_of(self, texture: Texture) -> int:
-        if id(texture) not in self._textures:
-            self._textures[id(texture)] = len(self._textures), texels_of(texture)
-        return self._textures[id(texture)][0]
+        if id(texture) not in self._places:
+            self._places[id(texture)] = len(self._texels), texture
+            self._texels.append(texels_of(texture))
+        return self._places[id(texture)][0]
+
+    def keeps(self, name: int) -> bool:
+        """Keep the texels of a texture, which will change, for the draws before.
+
+        Return False if they are too many, or if the draws write to the texture: then the draws come first.
+        """
+        if self._target.attaches(name):
+            return False
+        changing = {key: place for key, (place, texture) in self._places.items() if texture.name == name}
+        if any(self._texels[place].nbytes > WORTH_KEEPING for place in changing.values()):
+            return False
+        for key, place in changing.items():
+            self._texels[place] = self._texels[place].copy()
+            del self._places[key]
+        return True
 
     def _region_of(self, state: State) -> Region:
         key = id(state.scissor), id(state.points), id(state.viewport)
@@ -146,14 +164,13 @@ class Group:
         if any(shifts):
             table[:, FIRST : END + 1] += np.array(shifts, np.int32)[table[:, FLATS], None]
         states = [numbers for _, numbers in self._states.values()]
-        textures = [texels for _, texels in self._textures.values()]
         flats = [_widened(each.batch.flat, self._columns, True) for each in batches]
         buffers = buffers_of(self._target, any(numbers.writes_depth for numbers in states))
         lefts, rights, firsts, ends, _ = zip(*self._regions.values(), strict=True)
         region = Region(min(lefts), max(rights), min(firsts), max(ends), int(self._target.flipped))
         return Segments(
             table, np.array(self._ranges, np.float32), np.array(flats),
-            state_tables(states), padded_textures(textures), *buffers, region, self._work,
+            state_tables(states), padded_textures(self._texels), *buffers, region, self._work,
         )  # fmt: skip
 
     def _joined(self) -> tuple[Setup, np.ndarray]:
