@@ -181,7 +181,11 @@ class VertexBuffer:
     @property
     def room(self) -> int:
         """The number of vertices like the last one that fit behind the submitted ones."""
-        return (BYTES - self.used_bytes) // (4 * sum(self.sizes.values()))
+        return self.room_for(self.sizes)
+
+    def room_for(self, sizes: Mapping[str, int]) -> int:
+        """Return how many vertices fit behind the submitted ones, if their attributes have so many components."""
+        return (BYTES - self.used_bytes) // (4 * sum(sizes.values()))
 
     def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""

@@ -18,7 +18,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.gl.immediate import glBegin, glEnd
-from softshadow.gl.similar_pairs import PairVertices, similar_pairs
+from softshadow.gl.similar_pairs import NO_STARTS, PairVertices, first_pairs, similar_pairs
 from softshadow.gl.vertex_format import REST, add_vertex, carry_attribute, store_vertices
 
 F32 = np.float32
@@ -387,8 +387,10 @@ def _mesh(context: Context, mode: int, grid: Any, ranges: tuple[tuple[int, int],
 def _draw(context: Context, mesh: Mesh) -> None:
     """Draw the primitives of a mesh."""
     similar, n_done = None, 0
+    if mesh.pairs:
+        similar = first_pairs(context, mesh.mode, mesh.sizes, NO_STARTS, mesh.pairs[0].count)
     for number, (start, end) in enumerate(pairwise(mesh.ends)):
-        if number == 1 and mesh.pairs:
+        if number == 1 and mesh.pairs and similar is None:
             similar = similar_pairs(context, mesh.sizes)
         if similar is not None and n_done <= number:
             n_done = number + similar.add(mesh.mode, mesh.pairs[number:])

@@ -1,7 +1,8 @@
 """The glBegin ... glEnd pairs of a shape, kept with arrays of their vertices.
 
 Programs draw the same spheres and cylinders again and again. A strip of one is drawn by its calls up to the first
-vertex, which decide how Mesa collects the others; these are added at once, with arrays made before.
+vertex, which decide how Mesa collects the others; these are added at once, with arrays made before. Strips in a row are
+drawn together without their calls where that is decided already (`similar_pairs`).
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 
 from softshadow.context import Context, thread
 from softshadow.gl.immediate import glBegin, glEnd, glVertex3f
-from softshadow.gl.similar_pairs import PairVertices, SimilarPairs, similar_pairs
+from softshadow.gl.similar_pairs import PairVertices, SimilarPairs, first_pairs, similar_pairs
 from softshadow.gl.texture_coordinates import glTexCoord2f
 from softshadow.gl.vertex_attributes import glNormal3f
 
@@ -156,7 +157,11 @@ class Calls:
         similar: SimilarPairs | None = None
         for part in self._strips_and_calls:
             if isinstance(part, Strips):
-                n_done = 0
+                first, n_done = part.strips[0], 0
+                if before is None:
+                    count = len(first.positions) // 4
+                    similar = first_pairs(thread.context, first.mode, first.sizes, first.starts, count)
+                    before = None if similar is None else first
                 while n_done < len(part.strips):
                     if before is not None and similar is None:
                         similar = similar_pairs(thread.context, before.sizes)

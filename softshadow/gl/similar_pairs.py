@@ -1,7 +1,7 @@
 """glBegin ... glEnd pairs in a row that differ in nothing but their vertices, such as the strips of a sphere.
 
-The first pair is made by its calls, which set the vertex format. The others have the same format and the same state, so
-their draws are copies of one draw with other vertices.
+The first pair sets the vertex format: by its calls, unless no vertices are collected before it. The others have the
+same format and the same state, so their draws are copies of one draw with other vertices.
 """
 
 from __future__ import annotations
@@ -11,9 +11,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from softshadow.context import Context
+from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import create, evolve, evolve_each
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
-from softshadow.gl.vertex_format import TEXCOORDS
+from softshadow.gl.materials import follow_color
+from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE
 from softshadow.state import BLACK
@@ -121,6 +123,44 @@ class SimilarPairs:
         self._context.vertex_buffer.draw_pairs(evolve_each(self._draw, "vertices", vertices))
 
 
+def first_pairs(
+    context: Context, mode: int, sizes: Mapping[str, int], starts: Mapping[str, int], count: int
+) -> SimilarPairs | None:
+    """Return what draws a pair of `count` vertices, and more like it; None if the pair must be drawn by its calls.
+
+    Parameters
+    ----------
+    context : Context
+    sizes : dict                   "position", "normal" ...: components that the calls of each vertex set
+    starts : dict                  the first vertex for which they set each attribute
+    """
+    buffer = context.vertex_buffer
+    if buffer.n_vertices or buffer.joined_pairs is not None or "position" in buffer.sizes:
+        return None
+    if not _can_be_similar(context) or context.groups[""].fields["draw_framebuffer"] != DEFAULT:
+        return None
+    if mode in SEPARATE or not FEWEST <= count < buffer.room_for(sizes) - 2:
+        return None
+    late = [name for name, start in starts.items() if start]
+    for name in late:
+        width = sizes[name]
+        is_reset = name in TEXCOORDS and context.attribute(name)[width:] != REST[width:]  # in the first vertex, by Mesa
+        if starts[name] > 1 or is_reset:
+            return None
+    begin_format(context, mode, sizes, late)
+    follow_color(context)
+    context.pending.reset_due = context.pending.has_vertices = True
+    return SimilarPairs(context, sizes)
+
+
+def _can_be_similar(context: Context) -> bool:
+    """Return whether pairs may be drawn without their calls, as far as the vertex format does not decide it."""
+    is_listed = context.compiled_list is not None or context.list_depth or context.executes_list
+    current = context.current
+    plain = current.edge and current.secondary == BLACK and not current.fog_coordinate
+    return plain and not is_listed and context.primitive is None
+
+
 def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | None:
     """Return what draws more pairs like the one that has ended just now; None if they may need more than that.
 
@@ -129,11 +169,8 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     context : Context
     sizes : dict                   "position", "normal" ...: components that the calls of the vertices set
     """
-    is_listed = context.compiled_list is not None or context.list_depth or context.executes_list
-    if is_listed or context.primitive is not None:
-        return None
     current, pending, buffer = context.current, context.pending, context.vertex_buffer
-    if not (current.edge and current.secondary == BLACK and not current.fog_coordinate and pending.has_vertices):
+    if not (_can_be_similar(context) and pending.has_vertices):
         return None
     carried, active = buffer.sizes, buffer.active_sizes
     attributes = carried_of(tuple(carried))
@@ -151,4 +188,4 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     return SimilarPairs(context, sizes)
 
 
-__all__ = ["PairVertices", "SimilarPairs", "similar_pairs"]
+__all__ = ["NO_STARTS", "PairVertices", "SimilarPairs", "first_pairs", "similar_pairs"]

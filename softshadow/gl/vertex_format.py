@@ -8,7 +8,7 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -129,16 +129,42 @@ def add_vertex(context: Context, *coordinates: float) -> None:
     if primitive is None:  # undefined in GL; here it adds nothing
         context.flush()
         return
-    buffer = context.vertex_buffer
-    if primitive.positions or primitive.from_list or "position" in buffer.sizes:
+    if primitive.positions or primitive.from_list or "position" in context.vertex_buffer.sizes:
         carry_attribute(context, "position", size)
-    else:  # what that does for the first vertex after a flush
-        buffer.submit()
-        buffer.sizes["position"] = buffer.active_sizes["position"] = size
-        context.ready = False
+    else:
+        _carry_first_position(context, size)
     primitive.positions += (*coordinates, *REST[size:])
     store_vertices(context, primitive)
     primitive.position_size = 0 if context.executes_list else size
+
+
+def _carry_first_position(context: Context, size: int) -> None:
+    """Do what `carry_attribute` does for the first vertex after a flush."""
+    buffer = context.vertex_buffer
+    buffer.submit()
+    buffer.sizes["position"] = buffer.active_sizes["position"] = size
+    context.ready = False
+
+
+def begin_format(context: Context, mode: int, sizes: Mapping[str, int], late: Collection[str]) -> None:
+    """Make the vertices after a flush carry attributes of so many components, as the calls of a pair do.
+
+    They set the attributes in `late` after the first vertex. The buffer must have room for this vertex.
+    """
+    begin(context, mode)
+    primitive, buffer = context.primitive, context.vertex_buffer
+    assert primitive is not None
+    for name, size in sizes.items():
+        if name != "position" and name not in late:
+            carry_attribute(context, name, size)
+    _carry_first_position(context, sizes["position"])
+    if late:
+        primitive.positions += REST
+        _count(context, primitive)
+        for name in late:
+            carry_attribute(context, name, sizes[name])
+        buffer.n_vertices -= primitive.counted
+    context.primitive = None
 
 
 def store_vertices(context: Context, primitive: Primitive) -> None:

@@ -131,6 +131,15 @@ def test_shapes_give_the_draws_of_their_calls(n_bytes: int, monkeypatch: pytest.
         assert draws_of(partial(program.draw, Calls.make)) == draws_of(partial(program.draw, call_by_call)), seed
 
 
+def test_a_shape_in_an_incomplete_framebuffer_draws_nothing() -> None:
+    with gl.create_context(8, 8) as context:
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+        quadric = gl.gluNewQuadric()
+        with pytest.raises(gl.GLError, match="is not complete"):
+            gl.gluSphere(quadric, 1, 8, 8)
+    assert not [command for command in context.frame.commands if isinstance(command, Draw)]
+
+
 def strips(count: int, length: int) -> Calls:
     calls = Calls()
     for strip in range(count):
@@ -218,6 +227,7 @@ def test_meshes_of_evaluators_give_the_draws_of_single_vertices(n_bytes: int, mo
         with monkeypatch.context() as patch:
             patch.setattr(evaluators, "_takes_all", lambda *_: False)
             patch.setattr(evaluators, "similar_pairs", lambda *_: None)
+            patch.setattr(evaluators, "first_pairs", lambda *_: None)
             assert draws_of(partial(evaluate_meshes, seed)) == at_once, seed
 
 
