@@ -79,7 +79,7 @@ class Kinds:
 
     def __init__(self, storage: Storage, compiles: bool) -> None:
         self._storage, self._compiles = storage, compiles
-        # by the identity of what they depend on; the latest by all but their tests and blending
+        # by the identity of what they depend on; the latest by all but tests, blending and clip planes
         self._known: dict[Hashable, list[Kind]] = {}
         self._latest: dict[Hashable, Kind] = {}
         # the latest, and a draw of it: by its mode and what of its state matters; by the identity of the state and the
@@ -141,25 +141,30 @@ class Kinds:
         return tuple([textures.get(name) for name in names])
 
     def _with_other_tests(self, command: Draw, textures: Textures, target: Framebuffer) -> Kind | None:
-        """Return the kind of a draw by one that differs in tests and blending only."""
+        """Return the kind of a draw by one that differs in tests, blending and clip planes only."""
         similar = self._latest.get(_key_without_tests(command, textures))
         run = None if similar is None else similar.run.under(command)
         if similar is None or run is None:
             return None
-        same_tests = similar.run.has_tests_of(command.state)
-        if same_tests:
-            return similar._replace(run=run)
-        return similar._replace(run=run, plan=plan_draw(command, target), counting=[])
+        kind = similar._replace(run=run)
+        if run.user_planes is not similar.run.user_planes:
+            kind = kind._replace(batch=self._batch_of(run, similar.setting))
+        if similar.run.has_tests_of(command.state):
+            return kind
+        return kind._replace(plan=plan_draw(command, target), counting=[])
 
     def _new(self, command: Draw, textures: Textures, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)
         if run is None:
             return None
         setting = setting_of(run, target, self._storage)
-        batch = self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
-        kind = Kind(run, setting, plan_draw(command, target), batch, textures, [])
+        kind = Kind(run, setting, plan_draw(command, target), self._batch_of(run, setting), textures, [])
         self._latest[_key_without_tests(command, textures)] = kind
         return kind
+
+    def _batch_of(self, run: Run, setting: Setting) -> int:
+        """Return the number of the batch of a run: that of others whose geometry depends on the same."""
+        return self._batch_numbers.setdefault(geometry_key(run, setting), next(self._next_number))
 
     def forget(self) -> None:
         """Forget all kinds; draws that wait keep theirs."""
@@ -204,7 +209,7 @@ class Kinds:
 
 
 def _key_without_tests(command: Draw, textures: Textures) -> tuple[Hashable, ...]:
-    """Return by what to look for a kind that may differ in tests and blending only."""
+    """Return by what to look for a kind that may differ in tests, blending and clip planes only."""
     return key_of(command, with_tests=False), width_of(command.mode), textures
 
 

@@ -457,3 +457,27 @@ def test_a_program_is_told_once_that_it_waits_for_its_kernels(
         assert record.name == "softshadow"
         assert said in record.getMessage()
         assert ("softshadow warmup" in record.getMessage()) == (folder is not None)  # else it would cache nothing
+
+
+def test_clip_planes_that_change_need_no_plan_and_cut_their_own_draws(planned, batches):
+    def picture() -> bytes:
+        gl.create_context(SIZE, SIZE)
+        gl.glEnable(gl.GL_SCISSOR_TEST)
+        for n in range(12):
+            gl.glClipPlane(gl.GL_CLIP_PLANE0, (1, n % 4, 0, n / 12))
+            if n >= 4:
+                (gl.glDisable if n % 3 == 0 else gl.glEnable)(gl.GL_CLIP_PLANE0)
+            if n == 8:
+                gl.glMatrixMode(gl.GL_PROJECTION)
+                gl.glScalef(0.5, 1, 1)
+            gl.glScissor(0, n, SIZE, 4)
+            gl.glColor3f(n / 12, 1, 0)
+            draw_triangle()
+        return np.array(gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)).tobytes()
+
+    with use_short_cuts(False):
+        expected = picture()
+    planned.clear()
+    assert picture() == expected
+    assert len(planned) == 1
+    assert sorted(batches) == [1] * 6 + [6], "draws without a plane are of one kind, whatever its equation is"

@@ -38,7 +38,7 @@ from softshadow.programs.fixed_function import Unit, has_secondary, is_replaced,
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.programs.vertex_color_use import reads_primary_color
-from softshadow.state import Lighting, Points, Polygon, State
+from softshadow.state import ClipPlanes, Lighting, Points, Polygon, State
 
 GENERATED = {
     gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
@@ -48,11 +48,11 @@ GENERATED = {
 DIFFERENT = ("lighting", "viewport", "scissor", "read_framebuffer")
 GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
 _groups_of = attrgetter(*GROUPS)
-POLYGON = GROUPS.index("polygon")
+POLYGON, CLIP_PLANES = GROUPS.index("polygon"), GROUPS.index("clip_planes")
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("stencil", "depth", "blend")
-OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in OF_TESTS)
-PLAIN_POINTS, PLAIN_POLYGON = Points(), Polygon()
+OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in (*OF_TESTS, "clip_planes"))
+PLAIN_POINTS, PLAIN_POLYGON, NO_CLIP_PLANES = Points(), Polygon(), ClipPlanes()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
@@ -161,12 +161,15 @@ class Run:
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
         has_state = command.state is self.state or groups_of(command) == groups_of(self.command)
-        return has_state and self._is_alike(command)
+        first = self.command
+        has_planes = has_state and self._has_same_clip_planes(command, first.projection, first.projection_kind)
+        return has_planes and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
-        """Return the run that begins with a draw whose state has other tests or blending; None if more differs."""
+        """Return the run that begins with a draw whose tests, blending or clip planes differ; None if more does."""
         state, first = command.state, self.state
-        if _without_tests(groups_of(command)) != _without_tests(groups_of(self.command)):
+        groups, own_groups = groups_of(command), groups_of(self.command)
+        if _without_tests(groups) != _without_tests(own_groups):
             return None
         if state.depth.clamp != first.depth.clamp:
             return None
@@ -174,10 +177,16 @@ class Run:
             return None
         run = copy(self)
         run.command, run.state = command, state
+        planes, projection = groups[CLIP_PLANES], self.command.projection
+        if planes != own_groups[CLIP_PLANES] or not self._has_same_clip_planes(
+            command, projection, self.command.projection_kind
+        ):
+            run.user_planes = user_planes(command)
+            run._has_user_planes = len(run.user_planes) > 0
         return run
 
     def has_tests_of(self, state: State) -> bool:
-        """Return whether a state that differs in tests or blending at most has the same ones."""
+        """Return whether a state that differs in tests, blending or clip planes at most has the same tests."""
         return (
             state.depth is self.state.depth and state.stencil is self.state.stencil and state.blend is self.state.blend
         )
@@ -187,8 +196,6 @@ class Run:
         if width_of(command.mode) != width_of(self.command.mode):
             return False
         if structure_of(command.state.lighting) != structure_of(self.state.lighting):
-            return False
-        if not self._has_same_clip_planes(command, self.command.projection, self.command.projection_kind):
             return False
         return self._arrays_of(command) == self.arrays and can_run(command)
 
@@ -228,9 +235,17 @@ def width_of(mode: int) -> int:
 
 
 def groups_of(command: Draw) -> tuple[object, ...]:
-    """Return the groups of a draw's state that are those of the run: of `Polygon`, points use only their size."""
-    groups: tuple[object, ...] = _groups_of(command.state)
-    return (*groups[:POLYGON], PLAIN_POLYGON, *groups[POLYGON + 1 :]) if command.mode == gl.GL_POINTS else groups
+    """Return the groups of a draw's state that are those of the run, without what does not matter.
+
+    That is the equations of clip planes that are off, and for points all of `Polygon`.
+    """
+    state = command.state
+    groups: tuple[object, ...] = _groups_of(state)
+    if command.mode == gl.GL_POINTS:
+        groups = (*groups[:POLYGON], PLAIN_POLYGON, *groups[POLYGON + 1 :])
+    if True not in state.clip_planes.enabled:
+        groups = (*groups[:CLIP_PLANES], NO_CLIP_PLANES, *groups[CLIP_PLANES + 1 :])
+    return groups
 
 
 def _without_tests(groups: tuple[object, ...]) -> tuple[object, ...]:
