@@ -15,6 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 
 F32 = np.float32
+TOO_LARGE = F32(2**31)
 LARGEST_MAP = 256  # entries
 COLOR_MAPS = (gl.GL_PIXEL_MAP_R_TO_R, gl.GL_PIXEL_MAP_G_TO_G, gl.GL_PIXEL_MAP_B_TO_B, gl.GL_PIXEL_MAP_A_TO_A)
 INDEX_MAPS = (gl.GL_PIXEL_MAP_I_TO_R, gl.GL_PIXEL_MAP_I_TO_G, gl.GL_PIXEL_MAP_I_TO_B, gl.GL_PIXEL_MAP_I_TO_A)
@@ -149,7 +150,11 @@ class PixelTransfer:
 
 
 def _nearest(coordinate: np.ndarray, size: int) -> np.ndarray:
-    """Return the index of the nearest of `size` texels, clamped to the edge."""
+    """Return the index of the nearest of `size` texels, clamped to the edge.
+
+    What is too large for an integer of 32 bits becomes its lowest one where llvmpipe converts it, and so texel 0.
+    """
     with np.errstate(all="ignore"):
-        place: np.ndarray = np.fmin(np.fmax(np.trunc(coordinate * F32(size)), 0), size - 1).astype(np.int64)
-    return place
+        scaled = np.trunc(coordinate * F32(size))
+        place = np.fmin(np.fmax(scaled, 0), size - 1).astype(np.int64)
+    return np.where(scaled >= TOO_LARGE, 0, place)

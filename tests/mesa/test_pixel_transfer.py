@@ -280,3 +280,19 @@ def test_tables_in_other_types(name):
         return [np.array(answer).reshape(-1) for answer in answers]
 
     check(program)
+
+
+@pytest.mark.parametrize("channel", range(3))
+def test_numbers_beyond_32_bits_are_looked_up_at_the_first_entry(channel):
+    words = pixels("GL_RGB", "GL_UNSIGNED_INT_10F_11F_11F_REV").copy()
+    shift, largest = ((0, 0x7C0), (11, 0x7C0), (22, 0x3E0))[channel]
+    words[::3, ::2] = words[::3, ::2] & np.uint32(~(0x7FF << shift) & 0xFFFFFFFF) | np.uint32(
+        largest << shift
+    )  # infinity
+
+    def program(gl: Any) -> None:
+        setting(gl, "mapped")
+        gl.glDrawPixels(WIDTH, HEIGHT, gl.GL_RGB, gl.GL_UNSIGNED_INT_10F_11F_11F_REV, words)
+        gl.glPixelTransferi(gl.GL_MAP_COLOR, gl.GL_FALSE)
+
+    check(program)
