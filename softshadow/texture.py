@@ -86,7 +86,7 @@ class Texture:
     target: int
     sampler: Sampler = Sampler()
     images: dict[tuple[int, int], Image] = field(default_factory=dict)
-    _by_sampler: dict[Sampler, Texture] = field(default_factory=dict, init=False, repr=False)
+    _known: list[Texture] = field(default_factory=list, init=False, repr=False)  # with other parameters
 
     def base(self, face: int = 0) -> Image | None:
         """Return the image of the base level, or None if it is not defined."""
@@ -118,14 +118,16 @@ class Texture:
 
     def with_sampler(self, sampler: Sampler) -> Texture:
         """Return the texture with other parameters, images shared; with those of before, it is the same object."""
-        known = self._by_sampler
-        if len(known) >= KNOWN_SAMPLERS:
-            known.clear()
-        known[self.sampler] = self
-        if sampler not in known:
-            known[sampler] = replace(self, sampler=sampler)
-            known[sampler]._by_sampler = known
-        return known[sampler]
+        known = self._known
+        if not known or len(known) >= KNOWN_SAMPLERS:
+            known[:] = [self]
+        for texture in known:
+            if texture.sampler == sampler:
+                return texture
+        texture = Texture(self.name, self.target, sampler, self.images)
+        texture._known = known
+        known.append(texture)
+        return texture
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
         """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.

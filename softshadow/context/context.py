@@ -236,6 +236,12 @@ class Context(CurrentValues, Precision):
         self.flush()
         self._waiting.carry_out()
 
+    def note_shared_changes(self) -> None:
+        """Note that another context may have changed the objects that both share."""
+        self._line_pattern.find_place()
+        self._waiting.forget()
+        self.bound_samplers = None
+
     def _draw_text(self) -> None:
         text, self.text = self.text, None
         if text is not None:
@@ -415,5 +421,8 @@ def make_current(context: Context | None) -> Context | None:
     before = thread.context or None
     if before is not None:
         before.flush()
+        if context not in (None, before) and context.objects.textures is before.objects.textures:
+            before.finish()
+            context.note_shared_changes()
     thread.context = context or _Thread.context
     return before

@@ -83,6 +83,8 @@ def refusal(call: Callable[..., Any], error: Exception, *arguments: Any, **by_na
 
 def refuse_text(call: Callable[..., Any], *arguments: Any, **by_name: Any) -> None:
     """Raise a TypeError if a number is given as text: PyOpenGL refuses '3', which Python would convert."""
+    if not any(isinstance(value, str) for value in (*arguments, *by_name.values())):
+        return
     bound = _signature(call).bind(*arguments, **by_name)
     for parameter, value, expected in _expectations(bound):
         if isinstance(value, str):

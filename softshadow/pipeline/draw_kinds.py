@@ -57,13 +57,14 @@ class Kind(NamedTuple):
     """A state of draws that wait, with all that depends on it: run and setting for their geometry, plan for the rest.
 
     Kinds of one `batch` share batches: all that their geometry depends on is equal. `textures` are those that its draws
-    may read. `counting` keeps the plan of draws whose fragments an occlusion query counts.
+    may read, by `names`. `counting` keeps the plan of draws whose fragments an occlusion query counts.
     """
 
     run: Run
     setting: Setting
     plan: Plan
     batch: int
+    names: tuple[int, ...]
     textures: Textures
     counting: list[Plan]
 
@@ -89,6 +90,7 @@ class Kinds:
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
+        self._readable: set[int] = set()  # names of all textures that draws of known kinds may read
         self._names: dict[int, tuple[tuple[TextureUnit, ...], tuple[int, ...]]] = {}  # of textures, by units' identity
 
     def of(self, command: Draw) -> Kind | None:
@@ -107,7 +109,8 @@ class Kinds:
         return kind
 
     def _of_equal_state(self, command: Draw) -> Kind | None:
-        textures = self._textures_of(command.state)
+        names = self._names_of(command.state)
+        textures = tuple([self._storage.textures.get(name) for name in names])
         key = key_of(command), textures
         place = key, structure_of(command.state.lighting), command.mode
         known = self._of_states.get(place)
@@ -117,28 +120,28 @@ class Kinds:
         is_new = kind is None
         if kind is None:
             target = self._storage.framebuffers[command.state.draw_framebuffer]
-            kind = self._with_other_tests(command, textures, target) or self._new(command, textures, target)
+            kind = self._with_other_tests(command, textures, target) or self._new(command, names, textures, target)
         if kind is not None:
             if max(len(self._known), len(self._batch_numbers)) >= KNOWN_KINDS or self._known_vertices > KNOWN_VERTICES:
                 self.forget()
             if len(self._of_states) >= KNOWN_KINDS:
                 self._of_states.clear()
             if is_new:
+                self._readable.update(names)
                 self._known.setdefault(key, []).append(kind)
             self._of_states[place] = kind, command
             self._known_vertices += len(command.vertices.position)
         return kind
 
-    def _textures_of(self, state: State) -> Textures:
-        """Return the textures that a draw without a program may read, in the order of their names."""
+    def _names_of(self, state: State) -> tuple[int, ...]:
+        """Return the names of the textures that a draw without a program may read."""
         units, names = self._names.get(id(state.units), (None, ()))
         if units is not state.units:
             if len(self._names) >= KNOWN_UNITS:
                 self._names.clear()
             names = tuple(sorted(textures_of(state)))
             self._names[id(state.units)] = state.units, names
-        textures = self._storage.textures
-        return tuple([textures.get(name) for name in names])
+        return names
 
     def _with_other_tests(self, command: Draw, textures: Textures, target: Framebuffer) -> Kind | None:
         """Return the kind of a draw by one that differs in tests, blending and clip planes only."""
@@ -153,12 +156,12 @@ class Kinds:
             return kind
         return kind._replace(plan=plan_draw(command, target), counting=[])
 
-    def _new(self, command: Draw, textures: Textures, target: Framebuffer) -> Kind | None:
+    def _new(self, command: Draw, names: tuple[int, ...], textures: Textures, target: Framebuffer) -> Kind | None:
         run = begin_run(command, target, self._storage)
         if run is None:
             return None
         setting = setting_of(run, target, self._storage)
-        kind = Kind(run, setting, plan_draw(command, target), self._batch_of(run, setting), textures, [])
+        kind = Kind(run, setting, plan_draw(command, target), self._batch_of(run, setting), names, textures, [])
         self._latest[_key_without_tests(command, textures)] = kind
         return kind
 
@@ -173,6 +176,7 @@ class Kinds:
         self._of_states.clear()
         self._of_state.clear()
         self._batch_numbers.clear()
+        self._readable.clear()
         self._known_vertices = 0
 
     def note(self, command: Command) -> None:
@@ -194,13 +198,11 @@ class Kinds:
         if any(map(self._storage.is_attached, names)):
             self.forget()
             return
-        textures = self._storage.textures
-        changed = [id(textures[name].images) for name in names if name in textures]
-        self._forget_some(lambda kind: any(each and id(each.images) in changed for each in kind.textures))
+        if not self._readable.isdisjoint(names):
+            self._readable.difference_update(names)
+            self._forget_some(lambda kind: not set(names).isdisjoint(kind.names))
 
     def _forget_some(self, depends: Callable[[Kind], bool]) -> None:
-        if not any(depends(kind) for kinds in self._known.values() for kind in kinds):
-            return
         kept = {key: [kind for kind in kinds if not depends(kind)] for key, kinds in self._known.items()}
         self._known = {key: kinds for key, kinds in kept.items() if kinds}
         self._latest = {key: kind for key, kind in self._latest.items() if not depends(kind)}

@@ -36,7 +36,6 @@ from softshadow.pipeline.commands import (
 )
 from softshadow.pipeline.draw_kinds import Kind, Kinds, changes_cells_only
 from softshadow.pipeline.execute import execute
-from softshadow.pipeline.geometry.program import textures_of
 from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, plan_draw
 from softshadow.pipeline.records import FragmentCounts
 from softshadow.state import State
@@ -98,7 +97,6 @@ class DrawQueue:
         self._segment: Segment | None = None  # the last one, if only draws follow it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._textures: set[int] = set()  # names of those that they may read
-        self._states: dict[int, State] = {}  # by their units' identity, where these names are not added yet
         self._framebuffers: set[int] = set()  # that they, and clears among them, write to
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
 
@@ -128,9 +126,8 @@ class DrawQueue:
             self._segment = Segment(kind, command, len(batch) - 1, len(batch), query)
             self._segments.append(self._segment)
             self._queries.add(query)
-            state = command.state
-            self._states[id(state.units)] = state
-            self._framebuffers.add(state.draw_framebuffer)
+            self._textures.update(kind.names)
+            self._framebuffers.add(command.state.draw_framebuffer)
         self._n_commands += 1
         self._n_vertices += n_vertices
         self._are_small = self._are_small and n_vertices < WORTH_COMPARING
@@ -239,9 +236,6 @@ class DrawQueue:
 
     def _may_use(self, texture: int) -> bool:
         """Return whether draws or clears that wait may read a texture object, or write to it."""
-        for state in self._states.values():
-            self._textures |= textures_of(state)
-        self._states.clear()
         targets = [self._storage.framebuffers[name] for name in self._framebuffers]
         return texture in self._textures or any(target.attaches(texture) for target in targets)
 
@@ -252,7 +246,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._states, self._textures, self._framebuffers = {}, set(), set()
+        self._textures, self._framebuffers = set(), set()
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()

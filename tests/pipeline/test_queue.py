@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from softshadow import gl
+from softshadow import context, gl
 from softshadow.pipeline import draw_kinds, queue, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
@@ -481,3 +481,25 @@ def test_clip_planes_that_change_need_no_plan_and_cut_their_own_draws(planned, b
     assert picture() == expected
     assert len(planned) == 1
     assert sorted(batches) == [1] * 6 + [6], "draws without a plane are of one kind, whatever its equation is"
+
+
+def test_contexts_that_share_textures_see_each_others_changes():
+    first, second = gl.create_context(SIZE, SIZE), gl.create_context(SIZE, SIZE)
+    second.objects.textures = first.objects.textures
+    form = gl.GL_LUMINANCE, gl.GL_UNSIGNED_BYTE
+    for n, filter in enumerate([gl.GL_NEAREST, gl.GL_LINEAR, gl.GL_NEAREST]):
+        context.make_current(second)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filter)
+        image = np.array([[0, 200 - 40 * n]], np.uint8)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_LUMINANCE, 2, 1, 0, *form, image)
+        context.make_current(first)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        gl.glEnable(gl.GL_SCISSOR_TEST)
+        gl.glScissor(n, 0, SIZE, SIZE)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
+        gl.glTexCoord2f(0.5, 0.5)
+        draw_triangle()
+    read = gl.glReadPixels(0, 0, 3, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, :, 0].tolist()
+    assert read == [200, 80, 120]
