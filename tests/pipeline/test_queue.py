@@ -487,13 +487,13 @@ def test_contexts_that_share_textures_see_each_others_changes():
     first, second = gl.create_context(SIZE, SIZE), gl.create_context(SIZE, SIZE)
     second.objects.textures = first.objects.textures
     form = gl.GL_LUMINANCE, gl.GL_UNSIGNED_BYTE
-    for n, filter in enumerate([gl.GL_NEAREST, gl.GL_LINEAR, gl.GL_NEAREST]):
+    textures = (gl.GL_LINEAR, [0, 200]), (gl.GL_LINEAR, [0, 160, 40, 160]), (gl.GL_NEAREST, [0, 120])
+    for n, (filter, row) in enumerate(textures):
         context.make_current(second)
         gl.glBindTexture(gl.GL_TEXTURE_2D, 1)
         gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
         gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filter)
-        image = np.array([[0, 200 - 40 * n]], np.uint8)
-        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_LUMINANCE, 2, 1, 0, *form, image)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_LUMINANCE, len(row), 1, 0, *form, np.array([row], np.uint8))
         context.make_current(first)
         gl.glEnable(gl.GL_TEXTURE_2D)
         gl.glEnable(gl.GL_SCISSOR_TEST)
@@ -502,4 +502,4 @@ def test_contexts_that_share_textures_see_each_others_changes():
         gl.glTexCoord2f(0.5, 0.5)
         draw_triangle()
     read = gl.glReadPixels(0, 0, 3, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, :, 0].tolist()
-    assert read == [200, 80, 120]
+    assert read == [100, 100, 120]
