@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from weakref import ReferenceType, ref
 
 from softshadow import tokens as gl
 from softshadow.image import Image
@@ -86,7 +87,7 @@ class Texture:
     target: int
     sampler: Sampler = Sampler()
     images: dict[tuple[int, int], Image] = field(default_factory=dict)
-    _known: list[Texture] = field(default_factory=list, init=False, repr=False)  # with other parameters
+    _known: list[ReferenceType[Texture]] = field(default_factory=list, init=False, repr=False)  # with other parameters
 
     def base(self, face: int = 0) -> Image | None:
         """Return the image of the base level, or None if it is not defined."""
@@ -117,17 +118,18 @@ class Texture:
         return image.format.kind != "depth" or sampler.compare_mode == gl.GL_NONE
 
     def with_sampler(self, sampler: Sampler) -> Texture:
-        """Return the texture with other parameters, images shared; with those of before, it is the same object."""
+        """Return the texture with other parameters, images shared; one that is still in use is found again."""
         known = self._known
         if not known or len(known) >= KNOWN_SAMPLERS:
-            known[:] = [self]
-        for texture in known:
-            if texture.sampler == sampler:
+            known[:] = [ref(self)]
+        for reference in known:
+            texture = reference()
+            if texture is not None and texture.sampler == sampler:
                 return texture
-        texture = Texture(self.name, self.target, sampler, self.images)
-        texture._known = known
-        known.append(texture)
-        return texture
+        other = Texture(self.name, self.target, sampler, self.images)
+        other._known = known
+        known.append(ref(other))
+        return other
 
     def in_unit(self, lod_bias: float, seamless: bool) -> Texture:
         """Return the texture as a unit with this level-of-detail bias samples it; the images are shared.

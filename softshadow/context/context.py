@@ -255,10 +255,11 @@ class Context(CurrentValues, Precision):
         if type(command) is Draw and command.state.lines.stippled:
             command = self._line_pattern.continued(command)
         if type(command) is not Draw:
-            if not changes_cells_only(command, self.objects):
+            only_cells = changes_cells_only(command, self.objects)
+            if not only_cells:
                 self._line_pattern.find_place()
                 self.bound_samplers = None
-            self._waiting.add_other(command)
+            self._waiting.add_other(command, only_cells)
         elif not self._waiting.add(command):
             execute(command, self.objects)
         if self._frame.append(command):

@@ -34,7 +34,7 @@ from softshadow.pipeline.commands import (
     SetSampler,
     UpdateImage,
 )
-from softshadow.pipeline.draw_kinds import Kind, Kinds, changes_cells_only
+from softshadow.pipeline.draw_kinds import Kind, Kinds
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, plan_draw
 from softshadow.pipeline.records import FragmentCounts
@@ -153,13 +153,12 @@ class DrawQueue:
         self._n_vertices += n_vertices
         return len(commands)
 
-    def add_other(self, command: Command) -> None:
-        """Carry out a command that is no draw, now or later.
+    def add_other(self, command: Command, only_cells: bool) -> None:
+        """Carry out a command that is no draw, now or later; `only_cells` is what `changes_cells_only` says of it.
 
         It is carried out at once if it changes nothing for the draws that wait. Else it waits behind them, or they are
         carried out first.
         """
-        only_cells = changes_cells_only(command, self._storage)
         if not only_cells:
             self._kind = None
             self._kinds.note(command)

@@ -1,5 +1,7 @@
 """Draws that wait: which of them form a batch, and what is kept of a state for the draws that follow."""
 
+import gc
+import weakref
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -503,3 +505,19 @@ def test_contexts_that_share_textures_see_each_others_changes():
         draw_triangle()
     read = gl.glReadPixels(0, 0, 3, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)[0, :, 0].tolist()
     assert read == [100, 100, 120]
+
+
+def test_the_image_of_a_deleted_texture_is_freed_at_once():
+    with gl.create_context(SIZE, SIZE) as current:
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        load_texture(1, 50)
+        for filter in (gl.GL_LINEAR, gl.GL_NEAREST):
+            gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAG_FILTER, filter)
+            draw_triangle()
+        image = weakref.ref(current.objects.textures[1].images[0, 0])
+        gc.disable()
+        try:
+            gl.glDeleteTextures([1])
+            assert image() is None
+        finally:
+            gc.enable()

@@ -150,20 +150,17 @@ class Run:
         """Whether the colours or texture coordinates of vertices depend on their normals."""
         return self.lit or bool(self.layout.maps_normals)
 
-    def _has_same_clip_planes(self, command: Draw, projection: np.ndarray, kind: int) -> bool:
-        """Return whether the clip planes are those of the run in clip space, by a projection that has these."""
+    def _has_same_clip_planes(self, command: Draw, taken: Draw) -> bool:
+        """Return whether the clip planes of the run are the same in clip space for a draw as for one of the run."""
         if not len(self.user_planes):
             return True
-        return command.projection_kind == kind and (
-            command.projection is projection or command.projection.tobytes() == projection.tobytes()
-        )
+        one, other = command.projection, taken.projection
+        return command.projection_kind == taken.projection_kind and (one is other or one.tobytes() == other.tobytes())
 
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
         has_state = command.state is self.state or groups_of(command) == groups_of(self.command)
-        first = self.command
-        has_planes = has_state and self._has_same_clip_planes(command, first.projection, first.projection_kind)
-        return has_planes and self._is_alike(command)
+        return has_state and self._has_same_clip_planes(command, self.command) and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
         """Return the run that begins with a draw whose tests, blending or clip planes differ; None if more does."""
@@ -177,10 +174,8 @@ class Run:
             return None
         run = copy(self)
         run.command, run.state = command, state
-        planes, projection = groups[CLIP_PLANES], self.command.projection
-        if planes != own_groups[CLIP_PLANES] or not self._has_same_clip_planes(
-            command, projection, self.command.projection_kind
-        ):
+        has_same_planes = groups[CLIP_PLANES] == own_groups[CLIP_PLANES]
+        if not (has_same_planes and self._has_same_clip_planes(command, self.command)):
             run.user_planes = user_planes(command)
             run._has_user_planes = len(run.user_planes) > 0
         return run
@@ -215,7 +210,7 @@ class Run:
             return False
         if not self._fills and is_outlined_alone(command):
             return False
-        if self._has_user_planes and not self._has_same_clip_planes(command, taken.projection, taken.projection_kind):
+        if self._has_user_planes and not self._has_same_clip_planes(command, taken):
             return False
         one, other, numbers = command.vertices, taken.vertices, self._unit_numbers
         return one is other or (
