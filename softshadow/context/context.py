@@ -422,7 +422,7 @@ def make_current(context: Context | None) -> Context | None:
     before = thread.context or None
     if before is not None:
         before.flush()
-        if context not in (None, before) and context.objects.textures is before.objects.textures:
+        if context and context is not before and context.objects.textures is before.objects.textures:
             before.finish()
             context.note_shared_changes()
     thread.context = context or _Thread.context
