@@ -13,6 +13,7 @@ from hypothesis import settings
 
 from softshadow.testing import mesa_available, mesa_reason
 
+pytest_plugins = ["pipeline.small_draws"]  # its fixtures
 ALL_LANES = os.environ.get("SOFTSHADOW_LANE") == "all"
 
 settings.register_profile("here", deadline=None, max_examples=25)

@@ -354,4 +354,5 @@ Command = (
     | AttachRenderbuffer
     | SelectBuffers
 )
+OF_FRAMEBUFFERS = CreateFramebuffer, AttachTexture, AttachRenderbuffer, SelectBuffers  # they change one
 OF_TEXTURES = CreateTexture, DefineImage, UpdateImage, SetSampler, GenerateMipmaps  # they change one and read no other

@@ -13,22 +13,19 @@ from typing import NamedTuple
 
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import (
+    OF_FRAMEBUFFERS,
     Accumulate,
-    AttachRenderbuffer,
-    AttachTexture,
     BeginQuery,
     BlitFramebuffer,
     Clear,
     Command,
     CopyToTexture,
-    CreateFramebuffer,
     CreateTexture,
     DefineImage,
     DeleteTextures,
     Draw,
     DrawDepths,
     GenerateMipmaps,
-    SelectBuffers,
     SetSampler,
     UpdateImage,
 )
@@ -188,8 +185,9 @@ class Kinds:
                 self._forget_readers((texture,))
             case DeleteTextures(textures=textures):
                 self._forget_readers(textures)
-            case CreateFramebuffer() | AttachTexture() | AttachRenderbuffer() | SelectBuffers():
-                self._forget_some(lambda kind: kind.run.state.draw_framebuffer == command.framebuffer)
+            case _ if isinstance(command, OF_FRAMEBUFFERS):
+                framebuffer = command.framebuffer
+                self._forget_some(lambda kind: kind.run.state.draw_framebuffer == framebuffer)
             case _:
                 self.forget()
 

@@ -19,18 +19,15 @@ from softshadow.framebuffer import DEFAULT, Storage
 from softshadow.jit import announce_compiling
 from softshadow.pipeline.choose import joins_others
 from softshadow.pipeline.commands import (
-    AttachRenderbuffer,
-    AttachTexture,
+    OF_FRAMEBUFFERS,
     BeginQuery,
     Clear,
     Command,
-    CreateFramebuffer,
     CreateTexture,
     DefineImage,
     DeleteTextures,
     Draw,
     GenerateMipmaps,
-    SelectBuffers,
     SetSampler,
     UpdateImage,
 )
@@ -178,7 +175,7 @@ class DrawQueue:
             case DeleteTextures(textures=textures):
                 for texture in textures:
                     self._finish_users(texture)
-            case CreateFramebuffer() | AttachTexture() | AttachRenderbuffer() | SelectBuffers():
+            case _ if isinstance(command, OF_FRAMEBUFFERS):
                 if command.framebuffer in self._framebuffers:
                     self.carry_out()
             case _:
