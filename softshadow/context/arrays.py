@@ -10,9 +10,13 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.state import TEXTURE_UNITS
 
 CACHE_BYTES = 256 << 20  # of each cache: a few meshes of a million triangles
 CACHE_ENTRIES = 4096
+POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
+EDGE = TEXCOORD + TEXTURE_UNITS
+SECONDARY, FOG_COORDINATE = EDGE + 1, EDGE + 2
 INITIAL_SIZES = {"secondary": 3}  # of arrays that do not begin with 4 components
 
 

@@ -15,9 +15,18 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
-from softshadow.context.arrays import ArrayLayout, BufferObject, RowSnapshot, VertexArray
+from softshadow.context.arrays import (
+    EDGE,
+    FOG_COORDINATE,
+    POSITION,
+    SECONDARY,
+    ArrayLayout,
+    BufferObject,
+    RowSnapshot,
+    VertexArray,
+)
 from softshadow.context.current_values import UNIT_OF
-from softshadow.gl.array_snapshots import EDGE, FOG_COORDINATE, POSITION, SECONDARY, slice_of, snapshot_rows
+from softshadow.gl.array_snapshots import slice_of, snapshot_rows
 from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.color_indices import set_index
 from softshadow.gl.constant_attributes import constant_attributes
@@ -331,16 +340,11 @@ def _vertices(context: Context, rows: Rows) -> Vertices:
     key = first, end, constants, *others
     vertices: Vertices | None = position.drawn.get(key)
     if vertices is None:
-        columns = constants.rows(end - first)
-        optional: dict[str, Any] = {}
-        for snapshot in others:
-            if snapshot.slot in OPTIONAL:
-                optional[OPTIONAL[snapshot.slot]] = slice_of(snapshot, first, end)
-            else:
-                columns[snapshot.slot - 1] = slice_of(snapshot, first, end)
+        own = {snapshot.slot: slice_of(snapshot, first, end) for snapshot in others}
+        optional: dict[str, Any] = {name: own.pop(slot) for slot, name in OPTIONAL.items() if slot in own}
         if len(position.drawn) >= MOST_DRAWN:
             position.drawn.clear()
-        vertices = Vertices(slice_of(position, first, end), columns[0], columns[1], tuple(columns[2:]), **optional)
+        vertices = Vertices(slice_of(position, first, end), *constants.columns(end - first, own), **optional)
         position.drawn[key] = vertices
     return vertices
 

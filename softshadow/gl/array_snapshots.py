@@ -11,17 +11,22 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import ArrayLayout, RowSnapshot, VertexArray
+from softshadow.context.arrays import (
+    COLOR,
+    EDGE,
+    FOG_COORDINATE,
+    NORMAL,
+    SECONDARY,
+    ArrayLayout,
+    RowSnapshot,
+    VertexArray,
+)
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.memory.comparison import same_memory
-from softshadow.state import TEXTURE_UNITS
 
 LARGEST_FRACTION = (1 << 23) - 1  # llvmpipe fetches the upper 23 bits of an unsigned int
 SMALL = 4096  # bytes: up to here, `tobytes` and a comparison of bytes are faster than a call of memcmp
 CHUNK = 1 << 16  # rows that are compared at a time if they are not contiguous
-POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
-EDGE = TEXCOORD + TEXTURE_UNITS
-SECONDARY, FOG_COORDINATE = EDGE + 1, EDGE + 2
 WIDTHS = {NORMAL: 3, FOG_COORDINATE: 1}  # numbers of a vertex, where they are not 4
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
 ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole

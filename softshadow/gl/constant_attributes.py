@@ -6,7 +6,7 @@ Draws with the same current values share one view of it per number of vertices.
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from operator import is_
@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.context import Context, CurrentVertex
+from softshadow.context.arrays import COLOR, NORMAL, TEXCOORD
 from softshadow.context.current_values import UNIT_OF
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
@@ -24,6 +25,7 @@ MOST_VALUES = 4096
 MOST_DRAWN = 16384  # vertices that are kept besides one for each primitive: some 600 bytes of each are not arrays
 OPTIONAL = {"edge": True, "secondary": BLACK, "fog_coordinate": 0.0}  # the last fields of `Vertices`: initial values
 IS_OPTIONAL = frozenset(OPTIONAL)
+Columns = tuple[np.ndarray, np.ndarray, tuple[np.ndarray, ...]]  # colour, normal, texture coordinates of each unit
 NO_UNITS: tuple[tuple[int, str], ...] = ()
 # 0 and -0 are different values, so values are compared by their bits
 PACK_3, PACK_4, PACK_COLOR_AND_NORMAL = (struct.Struct(f"{count}d").pack for count in (3, 4, 7))
@@ -107,9 +109,20 @@ class ConstantSet:
             return self.texcoords.attributes[UNIT_OF[name]]
         return self.color if name == "color" else self.normal
 
-    def rows(self, count: int) -> list[np.ndarray]:
-        """Return `count` rows of each attribute, in the order of the slots."""
-        return [self.color.rows(count), self.normal.rows(count), *self.texcoords.rows(count)]
+    def columns(self, count: int, own: Mapping[int, np.ndarray]) -> Columns:
+        """Return `count` rows of colour, normal and texture coordinates: `own` arrays by slot, else equal rows.
+
+        Without own texture coordinates, all draws of as many vertices have the same tuple.
+        """
+        texcoords = self.texcoords.rows(count)
+        if own and max(own) >= TEXCOORD:
+            texcoords = tuple([own.get(slot, column) for slot, column in enumerate(texcoords, TEXCOORD)])
+        color, normal = own.get(COLOR), own.get(NORMAL)
+        return (
+            self.color.rows(count) if color is None else color,
+            self.normal.rows(count) if normal is None else normal,
+            texcoords,
+        )
 
 
 @dataclass(eq=False, slots=True)

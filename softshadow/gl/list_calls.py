@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from softshadow.context.arrays import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.gl import immediate, texture_coordinates, vertex_attributes
-from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.gl.conversions import (
     from_byte,
     from_int,

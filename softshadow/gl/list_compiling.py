@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.gl.array_snapshots import NORMAL, POSITION, TEXCOORD
+from softshadow.context.arrays import NORMAL, POSITION, TEXCOORD
 from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
 from softshadow.gl.list_joining import joined

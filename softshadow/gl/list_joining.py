@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.gl.array_snapshots import POSITION
+from softshadow.context.arrays import POSITION
 from softshadow.gl.list_primitives import ListPrimitive
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
+from softshadow.context.arrays import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.framebuffer import DEFAULT
 from softshadow.frozen import create
-from softshadow.gl.array_snapshots import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, DrawnVertices, constant_attributes
 from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
@@ -118,21 +118,21 @@ class ListPrimitive:
         key = tuple(each for slot, each in enumerate(constants.attributes, 1) if self.starts.get(slot, 1))
         vertices = self.made.get(key)
         if vertices is None:
-            rows = constants.rows(count)
+            own = {slot: self.rows[slot] for slot in self.starts}
             for slot, start in self.starts.items():
-                rows[slot - 1] = self.rows[slot]
                 if start:
-                    rows[slot - 1] = self.rows[slot].copy()
-                    rows[slot - 1][:start] = constants.attributes[slot - 1].row
-                    rows[slot - 1].setflags(write=False)
+                    own[slot] = own[slot].copy()
+                    own[slot][:start] = constants.attributes[slot - 1].row
+                    own[slot].setflags(write=False)
+            color, normal, texcoords = constants.columns(count, own)
             if len(self.made) >= MOST_DRAWN:
                 self.made.clear()
             vertices = self.made[key] = create(
                 Vertices,
                 position=self.rows[POSITION],
-                color=rows[0],
-                normal=rows[1],
-                texcoords=tuple(rows[2:]),
+                color=color,
+                normal=normal,
+                texcoords=texcoords,
                 materials={},
                 edges=None,
                 secondary=None,

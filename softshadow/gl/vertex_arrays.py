@@ -9,9 +9,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, ClientArrays, current
-from softshadow.context.arrays import VertexArray
-from softshadow.frozen import evolve
-from softshadow.gl.array_snapshots import (
+from softshadow.context.arrays import (
     COLOR,
     EDGE,
     FOG_COORDINATE,
@@ -19,8 +17,10 @@ from softshadow.gl.array_snapshots import (
     POSITION,
     SECONDARY,
     TEXCOORD,
-    vertex_array,
+    VertexArray,
 )
+from softshadow.frozen import evolve
+from softshadow.gl.array_snapshots import vertex_array
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
