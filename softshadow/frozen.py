@@ -1,14 +1,12 @@
 """Fast copies of dataclasses with some fields changed, and results of functions of such values."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import fields
+from collections.abc import Callable
 from functools import wraps
 from operator import is_
 from typing import Any, TypeVar
 
 Value = TypeVar("Value")
 Result = TypeVar("Result")
-NAMES: dict[type, tuple[str, ...]] = {}  # of the fields, by class
 MOST_RESULTS = 256  # of a function
 
 
@@ -33,19 +31,6 @@ def evolve(before: Value, **values: Any) -> Value:
     return copy
 
 
-def evolve_each(before: Value, name: str, values: Iterable[Any]) -> list[Value]:
-    """Return a copy for each value of one field, in half the time of `evolve`."""
-    kind, contents, copies = type(before), before.__dict__, []
-    assert name in contents
-    for value in values:
-        copy = object.__new__(kind)
-        own = copy.__dict__
-        own.update(contents)
-        own[name] = value
-        copies.append(copy)
-    return copies
-
-
 def evolve_to(goal: Value, before: Value, **values: Any) -> Value:
     """Return what `evolve` returns, or `before` or `goal` itself if all its fields are the same objects.
 
@@ -56,25 +41,6 @@ def evolve_to(goal: Value, before: Value, **values: Any) -> Value:
         if all(map(is_, copy.__dict__.values(), known.__dict__.values())):
             return known
     return copy
-
-
-def create(kind: type[Value], **values: Any) -> Value:
-    """Return an instance with all its fields, in a third of the time of the constructor.
-
-    For frozen dataclasses without ``__post_init__``.
-
-    Raises
-    ------
-    TypeError
-        A field is missing, or the class has no field of that name.
-    """
-    instance = object.__new__(kind)
-    instance.__dict__.update(values)
-    names = NAMES.get(kind) or NAMES.setdefault(kind, tuple([field.name for field in fields(kind)]))  # type: ignore[arg-type]
-    if (*values,) != names and values.keys() != {*names}:
-        wrong = ", ".join(sorted(values.keys() ^ {*names}))
-        raise TypeError(f"{kind.__name__}: missing or unknown fields {wrong}")
-    return instance
 
 
 def remembered(function: Callable[..., Result]) -> Callable[..., Result]:

@@ -27,13 +27,6 @@ def test_an_unknown_field_is_told():
         frozen.evolve(Depth(), func=3, bias=1)
 
 
-def test_a_created_instance_is_that_of_the_constructor():
-    fields = {field.name: getattr(Depth(), field.name) for field in dataclasses.fields(Depth)} | {"clear": 0.5}
-    assert frozen.create(Depth, **fields) == Depth(clear=0.5)
-    with pytest.raises(TypeError, match="Depth: missing or unknown fields bias"):
-        frozen.create(Depth, **fields, bias=1)
-
-
 def test_a_copy_with_the_fields_of_a_known_value_is_that_value():
     goal, before = Depth(clear=0.5), Depth()
     assert frozen.evolve_to(goal, before, clear=goal.clear) is goal

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -32,12 +32,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
-from softshadow.pipeline.commands import (
-    Command,
-    Draw,
-    Origin,
-    Vertices,
-)
+from softshadow.pipeline.commands import NO_UNIFORMS, Command, Draw, Origin, Vertices, draws_like
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -46,7 +41,6 @@ from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
 from softshadow.state import BLACK, TEXTURE_UNITS, State
 
-NO_UNIFORMS: Mapping[str, Any] = {}
 MATRIX_STACK_DEPTHS = {gl.GL_MODELVIEW: 32, gl.GL_PROJECTION: 32, gl.GL_TEXTURE: 10}
 
 
@@ -117,11 +111,7 @@ class Context(CurrentValues, Precision):
         self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
-        unset: Any = None  # what `draw_command` sets, beside this
-        self._usual_draw = Draw(
-            unset, 0, unset, None, unset, unset, unset, NO_UNIFORMS,
-            offset_slope=polygon_offset_slope, offset_unit=polygon_offset_unit,
-        )  # fmt: skip
+        self._offset_slope, self._offset_unit = polygon_offset_slope, polygon_offset_unit
         self._line_pattern = LinePattern(self.objects)
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
@@ -315,20 +305,20 @@ class Context(CurrentValues, Precision):
         `others` are modes, vertices with arrays of the same attributes, and indices.
         """
         for mode, same in groupby(others, itemgetter(0)):
-            alike = evolve(before, mode=mode)
             with_current = [(self._with_current(vertices), indices) for _, vertices, indices in same]
-            self._carry_out_alike([evolve(alike, vertices=each, indices=indices) for each, indices in with_current])
+            self._carry_out_alike(draws_like(before._replace(mode=mode), *zip(*with_current, strict=True)))
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
-        current, added = self.current, {}
+        current = self.current
+        added: dict[str, Any] = {}
         if not current.edge and vertices.edges is None:
             added["edges"] = np.broadcast_to(False, len(vertices.position))
         if current.secondary != BLACK and vertices.secondary is None:
             added["secondary"] = np.broadcast_to(self.frozen(current.secondary), (len(vertices.position), 4))
         if current.fog_coordinate != 0 and vertices.fog_coordinates is None:
             added["fog_coordinates"] = np.broadcast_to(self.frozen(current.fog_coordinate), len(vertices.position))
-        return evolve(vertices, **added) if added else vertices
+        return vertices._replace(**added) if added else vertices
 
     def draw_primitive(self, mode: int, vertices: Vertices) -> None:
         """Draw a primitive of immediate mode at once; the vertex format stays for those that follow."""
@@ -346,15 +336,16 @@ class Context(CurrentValues, Precision):
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()
-        command = evolve(
-            self._usual_draw,
-            state=state,
-            mode=mode,
-            vertices=vertices,
-            indices=indices,
-            modelview=modelview,
-            projection=projection,
-            texture_matrices=self._texture_matrices or self.texture_matrices(),
+        command = Draw(
+            state,
+            mode,
+            vertices,
+            indices,
+            modelview,
+            projection,
+            self._texture_matrices or self.texture_matrices(),
+            offset_slope=self._offset_slope,
+            offset_unit=self._offset_unit,
             modelview_kind=modelview_kind,
             projection_kind=projection_kind,
             origin=self.origin,
@@ -362,7 +353,7 @@ class Context(CurrentValues, Precision):
         if program or self.labels:
             uniforms = dict(self.uniforms[program]) if program else NO_UNIFORMS
             name = self.programs[program].name if program else ""
-            command = evolve(command, uniforms=uniforms, program_name=name, label="/".join(self.labels))
+            command = command._replace(uniforms=uniforms, program_name=name, label="/".join(self.labels))
         return command
 
     def end_step(self, title: str) -> None:

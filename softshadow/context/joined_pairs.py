@@ -13,7 +13,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated
 from softshadow.pipeline.mesa.driver_draws import CORNERS, SEPARATE
@@ -95,12 +94,12 @@ class JoinedPairs:
         commands, start, counts = [], 0, iter(self._counts)
         whole = join_vertices([vertices for _, vertices in parts]).position if len(groups) > 1 else None
         for (label, origin), group in groups:
-            command = evolve(self.first, vertices=join_vertices(group), label=label, origin=origin)
+            command = self.first._replace(vertices=join_vertices(group), label=label, origin=origin)
             end = start + len(command.vertices.position)
             if command.mode not in SEPARATE:
                 command = separated(command, tuple(_counts_until(end - start, counts)))
             elif command.mode in CORNERS and whole is not None:
-                command = evolve(command, joined_positions=whole, joined_start=start)
+                command = command._replace(joined_positions=whole, joined_start=start)
             commands.append(command)
             start = end
         return commands

@@ -7,7 +7,6 @@ place takes the geometry of that draw, and hardly any draw asks for it. So it is
 from __future__ import annotations
 
 from softshadow.framebuffer import Storage
-from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, draws_stippled_lines, stipple_place_after
 
@@ -30,7 +29,7 @@ class LinePattern:
         if draws_stippled_lines(command):
             if not begins_stipple_anew(command):
                 self.find_place()
-                command = evolve(command, stipple_place=self._place)
+                command = command._replace(stipple_place=self._place)
             self._last = command
         return command
 

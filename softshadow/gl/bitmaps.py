@@ -128,7 +128,7 @@ class Text:
         y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
         position = _near_positions(x, y, self._size, self._real)
         vertices = raster_vertices(position, *attributes_of(self._raster, len(position), self._real))
-        return evolve(self._first, vertices=vertices, indices=indices_of(len(position)))
+        return self._first._replace(vertices=vertices, indices=indices_of(len(position)))
 
 
 def draw_of_pixels(context: Context, pixels: PixelQuads, left: int, bottom: int) -> Draw:

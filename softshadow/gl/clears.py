@@ -6,7 +6,6 @@ from ctypes import c_int
 
 from softshadow import tokens as gl
 from softshadow.context import thread
-from softshadow.frozen import create
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import clamp01, rounded
@@ -58,7 +57,7 @@ def glClear(mask: int) -> None:
     if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glClear", f"framebuffer {name} is not complete")
     else:
-        context.execute(create(Clear, state=context.state, mask=int(mask)))
+        context.execute(Clear(context.state, int(mask)))
 
 
 def glFlush() -> None:

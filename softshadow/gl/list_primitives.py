@@ -17,7 +17,6 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.context.arrays import COLOR, NORMAL, POSITION, TEXCOORD
 from softshadow.framebuffer import DEFAULT
-from softshadow.frozen import create
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, DrawnVertices, constant_attributes
 from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
@@ -124,20 +123,9 @@ class ListPrimitive:
                     own[slot] = own[slot].copy()
                     own[slot][:start] = constants.attributes[slot - 1].row
                     own[slot].setflags(write=False)
-            color, normal, texcoords = constants.columns(count, own)
             if len(self.made) >= MOST_DRAWN:
                 self.made.clear()
-            vertices = self.made[key] = create(
-                Vertices,
-                position=self.rows[POSITION],
-                color=color,
-                normal=normal,
-                texcoords=texcoords,
-                materials={},
-                edges=None,
-                secondary=None,
-                fog_coordinates=None,
-            )
+            vertices = self.made[key] = Vertices(self.rows[POSITION], *constants.columns(count, own))
         return vertices
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition
 from softshadow.framebuffer import DEFAULT
-from softshadow.frozen import create, evolve, remembered
+from softshadow.frozen import evolve, remembered
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
 
@@ -33,17 +33,7 @@ def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np
     """Return vertices from arrays, which become read-only."""
     position.flags.writeable = False
     n = len(position)
-    return create(
-        Vertices,
-        position=position,
-        color=color,
-        normal=_for(n, _normals)(n, position.dtype.type),
-        texcoords=texcoords,
-        materials={},
-        edges=None,
-        secondary=None,
-        fog_coordinates=None,
-    )
+    return Vertices(position, color, _for(n, _normals)(n, position.dtype.type), texcoords)
 
 
 def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Vertices, clamps: bool = False) -> Draw:
@@ -52,8 +42,7 @@ def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Ver
     Of the state, that of fragments applies; that of vertices and triangles is replaced.
     """
     real, n = cast(Any, context.real), len(vertices.position)
-    return evolve(
-        _blank_draw(real, len(vertices.texcoords)),
+    return _blank_draw(real, len(vertices.texcoords))._replace(
         state=_without_vertex_stages(state, _whole(size), state.draw_framebuffer == DEFAULT, clamps),
         vertices=vertices,
         indices=indices_of(n),

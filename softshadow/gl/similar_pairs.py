@@ -12,11 +12,10 @@ import numpy as np
 
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT
-from softshadow.frozen import create, evolve, evolve_each
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.materials import follow_color
 from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
-from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.commands import Draw, Vertices, draws_like
 from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE
 from softshadow.state import BLACK
 
@@ -51,16 +50,11 @@ class PairVertices:
             if any(name in arrays for name in TEXCOORDS):
                 places = enumerate(TEXCOORDS)
                 texcoords = tuple([arrays[name] if name in arrays else texcoords[place] for place, name in places])
-            vertices = create(
-                Vertices,
-                position=arrays["position"],
-                color=arrays["color"] if "color" in arrays else constants.color.rows(count),
-                normal=arrays["normal"] if "normal" in arrays else constants.normal.rows(count),
-                texcoords=texcoords,
-                materials={},
-                edges=None,
-                secondary=None,
-                fog_coordinates=None,
+            vertices = Vertices(
+                arrays["position"],
+                arrays["color"] if "color" in arrays else constants.color.rows(count),
+                arrays["normal"] if "normal" in arrays else constants.normal.rows(count),
+                texcoords,
             )
             self._drawn.keep(constants, vertices)
         return vertices
@@ -119,8 +113,8 @@ class SimilarPairs:
         if self._draw is None:
             self._draw = self._context.draw_command(mode, vertices[0])
         elif self._draw.mode != mode:
-            self._draw = evolve(self._draw, mode=mode)
-        self._context.vertex_buffer.draw_pairs(evolve_each(self._draw, "vertices", vertices))
+            self._draw = self._draw._replace(mode=mode)
+        self._context.vertex_buffer.draw_pairs(draws_like(self._draw, vertices))
 
 
 def first_pairs(

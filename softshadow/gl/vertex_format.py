@@ -16,7 +16,6 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive, VertexBuffer
 from softshadow.context.current_values import UNIT_OF
-from softshadow.frozen import create
 from softshadow.gl.constant_attributes import OPTIONAL, carried_of, kept_constants
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
@@ -272,16 +271,15 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
         edges, secondary, fog_coordinates = [
             _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
         ]
-    return create(
-        Vertices,
-        position=arrays["position"] if arrays else context.packed(positions, count, 4),
-        color=rows("color") if carried.color else kept.latest_color.of(context, current.color, count),
-        normal=rows("normal") if carried.normal else kept.latest_normal.of(context, current.normal, count),
-        texcoords=texcoords,
-        materials={name: rows(name) for name in primitive.materials} if primitive.materials else NONE,
-        edges=edges,
-        secondary=secondary,
-        fog_coordinates=fog_coordinates,
+    return Vertices(
+        arrays["position"] if arrays else context.packed(positions, count, 4),
+        rows("color") if carried.color else kept.latest_color.of(context, current.color, count),
+        rows("normal") if carried.normal else kept.latest_normal.of(context, current.normal, count),
+        texcoords,
+        {name: rows(name) for name in primitive.materials} if primitive.materials else NONE,
+        edges,
+        secondary,
+        fog_coordinates,
     )
 
 

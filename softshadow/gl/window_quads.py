@@ -87,7 +87,7 @@ def _draw_of_texture(context: Context, texture: int, width: int, height: int, le
         y0 = y1 - np.float32(height) * zoom_y
     quad = np.array([[x0, y0, x1, y1]], np.float32)
     draw = _draw_of_quad(context, quad, _textured(context.state, FIRST_UNITS[texture]))
-    return evolve(draw, shown_at=_shown_at(context, float(x0), float(y0), width, height))
+    return draw._replace(shown_at=_shown_at(context, float(x0), float(y0), width, height))
 
 
 def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> tuple[int, int, int, int] | None:

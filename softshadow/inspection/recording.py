@@ -6,7 +6,7 @@ Only the classes in `KINDS` are created from a file; a file that names another o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from softshadow import errors, framebuffer, image, scene, state, texture
 from softshadow.context import Frame
 from softshadow.errors import SoftShadowError
-from softshadow.inspection.validate_recording import validate_fields, validate_image
+from softshadow.inspection.validate_recording import stored_fields, validate_fields, validate_image
 from softshadow.pipeline import commands
 
 DTYPES = {name: getattr(np, name) for name in ("uint8", "float32", "float64")}
@@ -32,7 +32,10 @@ LIGHT_SHAPES = (scene.Rectangle, scene.Disc, scene.Sphere, scene.Segment)
 IN_SCENE = (scene.Scene, scene.SceneObject, scene.Mesh, scene.Camera, scene.Light, scene.Material, *LIGHT_SHAPES)
 KINDS: dict[str, type] = {
     **{name: kind for name, kind in (_of(commands) | _of(state)).items() if is_dataclass(kind)},
-    **{kind.__name__: kind for kind in (texture.Sampler, image.Format, Frame, *IN_STORAGE, *IN_SCENE)},
+    **{
+        kind.__name__: kind
+        for kind in (commands.Draw, commands.Vertices, texture.Sampler, image.Format, Frame, *IN_STORAGE, *IN_SCENE)
+    },
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
 
@@ -59,7 +62,7 @@ class Packer:
             return value.item()
         if isinstance(value, bytes):
             return {"bytes": value.hex()}
-        if isinstance(value, list | tuple):
+        if isinstance(value, list | tuple) and type(value) not in NAMES:
             return {"list" if isinstance(value, list) else "tuple": [self.pack(item) for item in value]}
         if isinstance(value, Mapping):
             return {"mapping": [[self.pack(key), self.pack(item)] for key, item in value.items()]}
@@ -78,7 +81,7 @@ class Packer:
             return {"array": len(self.arrays) - 1}
         if type(value) not in NAMES:
             raise TypeError(f"a {type(value).__name__} cannot be saved")
-        packed = {each.name: self.pack(getattr(value, each.name)) for each in fields(value) if each.init}
+        packed = {name: self.pack(getattr(value, name)) for name in stored_fields(type(value))}
         self.objects.append([NAMES[type(value)], packed])
         return {"object": len(self.objects) - 1}
 

@@ -25,8 +25,16 @@ from softshadow.state.rasterization import SOLID
 # what GL calls hold: signed or unsigned numbers of 32 bits
 SMALLEST_INT, LARGEST_INT = -(2**31), 2**32 - 1
 CREATES = (commands.CreateTexture, commands.CreateFramebuffer, commands.DefineRenderbuffer)
+NOT_STORED = {"shown_at"}  # of a draw: what a file says of it might be wrong
 OBJECTS = ("texture", "framebuffer", "renderbuffer")
 KNOWN_FORMATS = {*FORMATS.values(), *DEPTH_FORMATS.values(), STENCIL8, EXACT_DEPTH, NOTHING}
+
+
+def stored_fields(kind: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a class that a file has."""
+    if issubclass(kind, tuple):
+        return tuple(name for name in kind._fields if name not in NOT_STORED)
+    return tuple(each.name for each in fields(kind) if each.init)
 
 
 @cache
@@ -45,9 +53,8 @@ def _lengths(kind: type) -> dict[str, int]:
 
 def validate_fields(kind: type, values: Mapping[str, Any]) -> None:
     """Raise a ValueError unless values are those of all fields of a class, each of its type."""
-    hints = _hints(kind)
-    names = {each.name for each in fields(kind) if each.init}
-    if set(values) != names:
+    hints, names = _hints(kind), stored_fields(kind)
+    if set(values) != set(names):
         raise ValueError(f"{kind.__name__}: expected the fields {', '.join(sorted(names))}")
     for name, value in values.items():
         if name != "history_bytes":  # nothing more is recorded
@@ -194,7 +201,8 @@ def _validate_names(frame: Frame) -> None:
     known["read"] = known["draw"] = known["draw_framebuffer"] = known["read_framebuffer"] = known["framebuffer"]
     for command in map(drawing, frame.commands):
         if isinstance(command, CREATES):
-            known[fields(command)[0].name].add(getattr(command, fields(command)[0].name))
+            created_name = stored_fields(type(command))[0]
+            known[created_name].add(getattr(command, created_name))
         for part in (command, getattr(command, "state", None)):
             for name, created in known.items():
                 if getattr(part, name, 0) not in (0, *created):

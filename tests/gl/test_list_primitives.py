@@ -1,6 +1,6 @@
 """Primitives of display lists are drawn from arrays exactly as by their calls."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -140,12 +140,10 @@ def bits(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.dtype.str, value.shape, value.tobytes(), value.strides[:1] == (0,)
     if isinstance(value, Draw):  # a draw takes a colour that materials follow from its vertices
-        value = replace(value, state=without_followed_colors(value.state))
+        value = value._replace(state=without_followed_colors(value.state))
         if value.indices is not None:  # vertices that a list has joined stand in the order of the calls
-            value = replace(value, vertices=in_order(value.vertices, value.indices), indices=len(value.indices))
-    if isinstance(value, Vertices | Draw):
-        return [bits(getattr(value, each.name)) for each in fields(value)]
-    if isinstance(value, tuple | list):
+            value = value._replace(vertices=in_order(value.vertices, value.indices), indices=len(value.indices))
+    if isinstance(value, tuple | list):  # as draws and vertices are
         return [bits(each) for each in value]
     if isinstance(value, dict):
         return {key: bits(each) for key, each in value.items()}

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.frozen import evolve
 from softshadow.gl import immediate
 from softshadow.gl.shape_calls import Calls
 from softshadow.inspection.validate_recording import validate_frame
@@ -217,7 +216,7 @@ def test_a_file_with_other_indices_is_refused(wrong: dict[str, Any]) -> None:
         loops(2)
         frame = context.frame
     validate_frame(frame)
-    frame.commands[0] = evolve(frame.commands[0], **wrong)
+    frame.commands[0] = frame.commands[0]._replace(**wrong)
     with pytest.raises(ValueError, match="a draw of pairs of mode"):
         validate_frame(frame)
 

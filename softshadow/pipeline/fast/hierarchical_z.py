@@ -16,7 +16,7 @@ import numpy as np
 
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import ZERO
+from softshadow.pipeline.constants import INFINITY, ZERO
 from softshadow.pipeline.fast.fragment_numbers import LARGEST, UNMASKED_REF, ZFAIL_OP, ZPASS_OP, update_of, updated
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
@@ -128,7 +128,7 @@ def find_bounds(depth, first, end, left, right, scratch):
     low, high, odd = scratch[0], scratch[1], scratch[2]
     width = np.uint64(right - left)
     for k in range(width):
-        low[k], high[k], odd[k] = np.inf, -np.inf, 0
+        low[k], high[k], odd[k] = INFINITY, -INFINITY, ZERO
     for row in range(first, end):
         stored = depth[row, left:right]
         for k in range(width):
@@ -139,7 +139,7 @@ def find_bounds(depth, first, end, left, right, scratch):
     lowest, highest = low[0], high[0]
     for k in range(width):
         if odd[k] != 0:
-            return -np.inf, np.inf
+            return -INFINITY, INFINITY
         lowest, highest = min(lowest, low[k]), max(highest, high[k])
     return lowest, highest
 

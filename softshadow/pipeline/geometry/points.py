@@ -73,7 +73,7 @@ def write_squares(window, points, ids, sizes, flipped, widths, corners, vertices
         width = fixed_width(sizes[n])
         if are_sprites:
             width = max(PIXEL, width)
-            widths[n] = width / PIXEL
+            widths[n] = widths.dtype.type(width) / widths.dtype.type(PIXEL)
         if not (np.isfinite(z) and abs(x) < REACH and abs(y) < REACH):
             continue
         if are_sprites:

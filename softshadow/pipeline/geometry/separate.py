@@ -11,7 +11,6 @@ from functools import lru_cache
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import assemble
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
@@ -46,8 +45,8 @@ def separated(command: Draw, counts: tuple[int, ...]) -> Draw:
     """
     if len(counts) == 1:
         return command
-    return evolve(
-        command, mode=SEPARABLE[command.mode], indices=separate_indices(command.mode, counts), pairs_mode=command.mode
+    return command._replace(
+        mode=SEPARABLE[command.mode], indices=separate_indices(command.mode, counts), pairs_mode=command.mode
     )
 
 

@@ -15,7 +15,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from softshadow import tokens as gl
-from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import State
@@ -74,7 +73,7 @@ class DriverDraw:
         """
         if not offset_depends_on_mode(command.state):
             return command
-        part = evolve(command, offset_mode=self.offset_mode)
+        part = command._replace(offset_mode=self.offset_mode)
         if not self.offset_mode:
             self.offset_mode = offset_mode_of(part)
         return part

@@ -167,7 +167,7 @@ def number_triangles(triangles, place, needed):
     for t in range(np.uint64(place.shape[0])):
         needed[n] = t
         is_needed = place[t] != NOT_NEEDED
-        place[t] = n if is_needed else NOT_NEEDED
+        place[t] = np.int32(n) if is_needed else NOT_NEEDED  # of both types, Numba would make a float64
         n += np.uint64(is_needed)
     return n
 

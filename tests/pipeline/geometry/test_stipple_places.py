@@ -5,7 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow import gl
-from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, stipple_place_after
@@ -37,7 +36,7 @@ def test_patterns_go_on_where_the_draws_before_have_left_them(seed):
         place, storage = 0, context.storage
         for command in context._frame.commands:
             if isinstance(command, Draw):
-                expected = evolve(command, stipple_place=place)
+                expected = command._replace(stipple_place=place)
                 ours, theirs = (process_geometry(each, storage.window, storage) for each in (command, expected))
                 np.testing.assert_array_equal(ours.triangles.corners, theirs.triangles.corners)
                 place = stipple_place_after(expected, storage)

@@ -15,7 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
-from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.commands import NO_UNIFORMS, Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
 from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
@@ -47,7 +47,6 @@ from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
 from softshadow.programs.fixed_function import has_secondary, is_replaced, point_sizes
 
-NO_UNIFORMS: Mapping[str, Any] = {}
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
 MOST_COMPARED = 32  # draws of a run that is compared with recent ones
