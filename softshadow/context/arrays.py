@@ -17,6 +17,10 @@ CACHE_ENTRIES = 4096
 POSITION, COLOR, NORMAL, TEXCOORD = range(4)  # slots of the attributes; texture coordinates of the other units follow
 EDGE = TEXCOORD + TEXTURE_UNITS
 SECONDARY, FOG_COORDINATE = EDGE + 1, EDGE + 2
+SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
+SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
+SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
+SLOT_NAMES = tuple(SLOTS)
 INITIAL_SIZES = {"secondary": 3}  # of arrays that do not begin with 4 components
 
 
@@ -160,7 +164,7 @@ class BufferObject:
 class ClientArrays:
     """Vertex arrays: which are enabled, the array or buffer of each, and what draws have read from them.
 
-    Names are keys of `gl.vertex_arrays.SLOTS`: "position", "color", "texcoord0" ... `active` holds the arrays that a
+    Names are keys of `SLOTS`: "position", "color", "texcoord0" ... `active` holds the arrays that a
     draw reads, position first; None after a change. `constants` are the attributes without an array as the last draw
     had them.
     """

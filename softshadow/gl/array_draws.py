@@ -20,6 +20,8 @@ from softshadow.context.arrays import (
     FOG_COORDINATE,
     POSITION,
     SECONDARY,
+    SLOT_NAMES,
+    SLOTS,
     ArrayLayout,
     BufferObject,
     RowSnapshot,
@@ -53,18 +55,17 @@ from softshadow.gl.immediate import (
 )
 from softshadow.gl.index_snapshots import snapshot_indices
 from softshadow.gl.list_compiling import shares_vertices, used_rows
-from softshadow.gl.list_primitives import NAMES, ListPrimitive
+from softshadow.gl.list_primitives import ListPrimitive
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.secondary_colors import set_secondary
 from softshadow.gl.texture_coordinates import glTexCoord2f, set_coordinate
-from softshadow.gl.vertex_arrays import DTYPES, SLOTS, rows_of
+from softshadow.gl.vertex_arrays import DTYPES, rows_of
 from softshadow.gl.vertex_attributes import glColor3f, glColor4f, glEdgeFlag, glNormal3f, set_color, set_normal
 from softshadow.pipeline.commands import Vertices
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
 Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and which: [first, end)
-KEYS = tuple(SLOTS)  # names of the arrays by slot
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
 NO_MEMORY = memoryview(b"")
@@ -226,7 +227,7 @@ def _find_readers(context: Context) -> tuple[tuple[VertexArray, ...], tuple[_Rea
 
 
 def _reader(array: VertexArray) -> _Reader:
-    key, rows = KEYS[array.slot], array.rows
+    key, rows = SLOT_NAMES[array.slot], array.rows
     convert = CONVERSIONS.get(rows.dtype.type, float) if key in NORMALIZED else float
     call = CALLS.get((key, rows.shape[1]))
     unpack: Callable[..., tuple[Any, ...]] | None = None
@@ -280,7 +281,7 @@ def _listed(context: Context, mode: int, rows: Rows, indices: np.ndarray) -> Cal
     call = partial(_draw_rows, mode, rows, indices)
     if any(snapshot.slot in OPTIONAL for snapshot in snapshots):
         return call
-    sizes = {NAMES[array.slot]: array.layout.size for array in _arrays_in_use(context)}
+    sizes = {SLOT_NAMES[array.slot]: array.layout.size for array in _arrays_in_use(context)}
     columns = {snapshot.slot: slice_of(snapshot, first, end) for snapshot in snapshots}
     if shares_vertices(mode, len(indices)):
         columns, indices = used_rows(columns, indices)
@@ -326,7 +327,7 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
         return None
     for array in active:
         if len(array.rows) < end:
-            name, n_rows = KEYS[array.slot], len(array.rows)
+            name, n_rows = SLOT_NAMES[array.slot], len(array.rows)
             raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
@@ -353,7 +354,7 @@ def _arrays_in_use(context: Context) -> tuple[VertexArray, ...]:
     """Return the enabled arrays that a draw reads, positions first."""
     active = context.arrays.active
     if active is None:
-        arrays = (_array(context, key) for key in KEYS if key in context.arrays.enabled and key != NOT_DRAWN)
+        arrays = (_array(context, key) for key in SLOT_NAMES if key in context.arrays.enabled and key != NOT_DRAWN)
         active = context.arrays.active = tuple(array for array in arrays if array is not None)
     return active
 

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import NORMAL, POSITION, TEXCOORD
+from softshadow.context.arrays import NORMAL, POSITION, SLOT_NAMES, TEXCOORD
 from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
 from softshadow.gl.list_joining import joined
-from softshadow.gl.list_primitives import NAMES, ListPrimitive, with_similar_joined
+from softshadow.gl.list_primitives import ListPrimitive, with_similar_joined
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import TEXTURE_UNITS
@@ -98,7 +98,7 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
             return None
         if values is None:
             return None
-        sizes[NAMES[slot]] = len(values)
+        sizes[SLOT_NAMES[slot]] = len(values)
         if slot != NORMAL:
             values = (*values, *REST[len(values) :])
         if slot == POSITION:

@@ -15,7 +15,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current
-from softshadow.context.arrays import COLOR, NORMAL, POSITION, TEXCOORD
+from softshadow.context.arrays import COLOR, NORMAL, POSITION, SLOT_NAMES, TEXCOORD
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, DrawnVertices, constant_attributes
 from softshadow.gl.errors import GLError, fail
@@ -26,7 +26,6 @@ from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with
-NAMES = ("position", "color", "normal", *(f"texcoord{unit}" for unit in range(TEXTURE_UNITS)))  # by slot
 
 
 @dataclass(eq=False)
@@ -59,7 +58,7 @@ class ListPrimitive:
 
     def __post_init__(self) -> None:
         units = range(TEXTURE_UNITS)
-        self.carried_units = tuple([(unit, NAMES[TEXCOORD + unit]) for unit in units
+        self.carried_units = tuple([(unit, SLOT_NAMES[TEXCOORD + unit]) for unit in units
                                     if self.starts.get(TEXCOORD + unit) == 0])  # fmt: skip
 
     def __call__(self) -> None:
@@ -97,7 +96,7 @@ class ListPrimitive:
                     old_values["normal"], values.normal = values.normal, value  # type: ignore[assignment]
                 else:
                     texcoords, unit = values.texcoords, slot - TEXCOORD
-                    old_values[NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
+                    old_values[SLOT_NAMES[slot]], texcoords[unit] = texcoords[unit], value  # type: ignore[assignment]
             context.vertex_buffer.active_sizes.update(self.sizes)
         follow_color(context)
         if pending.hidden:

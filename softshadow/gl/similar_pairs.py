@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from softshadow.context import Context
+from softshadow.context.arrays import SLOTS
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.materials import follow_color
@@ -45,17 +46,9 @@ class PairVertices:
         """Return the vertices of a draw; attributes without an array are constant."""
         vertices = self._drawn.get(constants)
         if vertices is None:
-            arrays, count = self._complete(constants), self.count
-            texcoords = constants.texcoords.rows(count)
-            if any(name in arrays for name in TEXCOORDS):
-                places = enumerate(TEXCOORDS)
-                texcoords = tuple([arrays[name] if name in arrays else texcoords[place] for place, name in places])
-            vertices = Vertices(
-                arrays["position"],
-                arrays["color"] if "color" in arrays else constants.color.rows(count),
-                arrays["normal"] if "normal" in arrays else constants.normal.rows(count),
-                texcoords,
-            )
+            arrays = self._complete(constants)
+            own = {SLOTS[name]: array for name, array in arrays.items()}
+            vertices = Vertices(arrays["position"], *constants.columns(self.count, own))
             self._drawn.keep(constants, vertices)
         return vertices
 

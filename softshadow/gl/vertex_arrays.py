@@ -9,32 +9,19 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, ClientArrays, current
-from softshadow.context.arrays import (
-    COLOR,
-    EDGE,
-    FOG_COORDINATE,
-    NORMAL,
-    POSITION,
-    SECONDARY,
-    TEXCOORD,
-    VertexArray,
-)
+from softshadow.context.arrays import SLOTS, VertexArray
 from softshadow.frozen import evolve
 from softshadow.gl.array_snapshots import vertex_array
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.texture_coordinates import A_UNIT, UNITS
-from softshadow.state import TEXTURE_UNITS
 
 TYPES = {
     gl.GL_BYTE: np.int8, gl.GL_UNSIGNED_BYTE: np.uint8, gl.GL_SHORT: np.int16, gl.GL_UNSIGNED_SHORT: np.uint16,
     gl.GL_INT: np.int32, gl.GL_UNSIGNED_INT: np.uint32, gl.GL_FLOAT: np.float32, gl.GL_DOUBLE: np.float64,
 }  # fmt: skip
 DTYPES = {type: np.dtype(dtype) for type, dtype in TYPES.items()}
-SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
-SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
-SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
 POSITION_TYPES = (gl.GL_SHORT, gl.GL_INT, gl.GL_FLOAT, gl.GL_DOUBLE)
 NORMAL_TYPES = (gl.GL_BYTE, *POSITION_TYPES)
 COLOR_INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, *POSITION_TYPES)
