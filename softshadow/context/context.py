@@ -293,7 +293,8 @@ class Context(CurrentValues, Precision):
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         """Draw primitives under the current state; nobody may change the arrays afterwards."""
-        self.flush()
+        if not self.ready:
+            self.flush()
         self.update_current()
         command = self.draw_command(mode, self._with_current(vertices), indices)
         self._carry_out(command)
@@ -311,6 +312,8 @@ class Context(CurrentValues, Precision):
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
         current = self.current
+        if current.edge and current.secondary == BLACK and current.fog_coordinate == 0:
+            return vertices
         added: dict[str, Any] = {}
         if not current.edge and vertices.edges is None:
             added["edges"] = np.broadcast_to(False, len(vertices.position))

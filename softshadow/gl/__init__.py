@@ -19,6 +19,7 @@ import softshadow
 from softshadow.context import Context, current, make_current
 from softshadow.gl.accumulation import *
 from softshadow.gl.array_draws import *
+from softshadow.gl.array_elements import *
 from softshadow.gl.attributes import *
 from softshadow.gl.bitmaps import *
 from softshadow.gl.blits import *

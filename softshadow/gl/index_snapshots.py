@@ -7,15 +7,18 @@ equal array is neither copied nor searched again.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from softshadow.context import Context
+from softshadow.context.arrays import BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of
 from softshadow.gl.buffers import offset_of
 from softshadow.pipeline.memory.comparison import same_memory
 
+Rows = tuple[list[RowSnapshot], int, int]  # of each array, positions first, and which: [first, end)
 BYTES_BEFORE = 64  # at both ends of the content; arrays with equal ones are compared
 
 
@@ -24,7 +27,8 @@ class IndexSnapshot:
     """The indices of a draw: (N,) int32, read-only, counted from the smallest; 0 and -1 are the range without indices.
 
     A draw takes the vertices `lowest` to `highest` only, so that others of the same arrays are not processed. `content`
-    is the source of a small array, `raw` that of a larger one, at `address`.
+    is the source of a small array, `raw` that of a larger one, at `address`. `rows` are those of the latest draw, from
+    `arrays` that are all in buffer objects: programs draw one mesh in many places.
     """
 
     indices: np.ndarray
@@ -33,6 +37,13 @@ class IndexSnapshot:
     content: bytes | None
     raw: np.ndarray
     address: int
+    arrays: tuple[VertexArray, ...] = ()
+    rows: Rows | None = None
+
+    def keep(self, arrays: tuple[VertexArray, ...], rows: Rows) -> None:
+        """Keep the rows of a draw if they are in buffer objects, where changed contents are other arrays."""
+        if all(isinstance(array.owner, BufferObject) for array in arrays):
+            self.arrays, self.rows = arrays, rows
 
 
 @dataclass(eq=False, slots=True)
@@ -60,10 +71,11 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
     arrays = context.arrays
     if arrays.element_buffer:
         bound, offset = context.buffers[arrays.element_buffer], offset_of(indices)
-        stored: IndexSnapshot = bound.view(
-            (offset, count, dtype.char),
-            lambda: _taken(context, operation, count, _numbers_at(bound.content, offset, dtype)),
-        )
+        place_in_buffer = offset, count, dtype.char
+        stored: IndexSnapshot | None = bound.views.get(place_in_buffer)
+        if stored is None:
+            make = partial(_taken, context, operation, count, _numbers_at(bound.content, offset, dtype))
+            stored = bound.view(place_in_buffer, make)
         return stored
     is_view = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
     owner = owner_of(indices) if is_view else indices

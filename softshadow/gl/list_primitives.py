@@ -104,6 +104,7 @@ class ListPrimitive:
             for name in old_values:
                 pending.hidden.pop(name, None)
             pending.reset_due = pending.has_vertices = True
+            context.ready = False
         else:
             context.reset_attributes()
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import ArrayLayout, ClientArrays, current
-from softshadow.context.arrays import SLOTS, VertexArray
+from softshadow.context import ArrayLayout, ClientArrays, Context, current
+from softshadow.context.arrays import SLOT_NAMES, SLOTS, BufferObject, VertexArray
 from softshadow.frozen import evolve
 from softshadow.gl.array_snapshots import vertex_array
 from softshadow.gl.buffers import offset_of
@@ -46,6 +46,7 @@ INTERLEAVED = {
 }  # fmt: skip
 COLORS = {"": (0, 0), "3f": (3, 12), "4f": (4, 16), "4ub": (4, 4)}  # (components, bytes)
 DEEPEST_CLIENT_ATTRIBUTES = 16
+NOT_DRAWN = "index"  # the array that only glArrayElement reads
 
 
 # -- single arrays -----------------------------------------------------------------------------------------------------
@@ -155,11 +156,15 @@ def _pointer(
                 arrays.offsets.pop(key, None)
                 arrays.active = None
             return
-        arrays.layouts[key], arrays.active = ArrayLayout(int(size), int(type), int(stride)), None
+        layout = ArrayLayout(int(size), int(type), int(stride))
+        place = (arrays.array_buffer, offset_of(pointer)) if arrays.array_buffer else None
+        if place is not None and arrays.offsets.get(key) == place and arrays.layouts[key] == layout:
+            return
+        arrays.layouts[key], arrays.active = layout, None
         arrays.pointers.pop(key, None)
         arrays.offsets.pop(key, None)
-        if arrays.array_buffer:
-            arrays.offsets[key] = (arrays.array_buffer, offset_of(pointer))
+        if place is not None:
+            arrays.offsets[key] = place
 
 
 def _array_of(arrays: ClientArrays, key: str, pointer: Any, size: int, type: int, stride: int) -> VertexArray:
@@ -186,6 +191,33 @@ def rows_of(pointer: Any, dtype: np.dtype, size: int, stride: int) -> np.ndarray
         n_rows = (len(flat) - size * dtype.itemsize) // stride + 1
         return np.ndarray((max(n_rows, 0), size), dtype, flat, 0, (stride, dtype.itemsize))
     return values.reshape(-1)[: values.size // size * size].reshape(-1, size)
+
+
+def arrays_in_use(context: Context) -> tuple[VertexArray, ...]:
+    """Return the enabled arrays that a draw reads, positions first."""
+    active = context.arrays.active
+    if active is None:
+        arrays = (array_of(context, key) for key in SLOT_NAMES if key in context.arrays.enabled and key != NOT_DRAWN)
+        active = context.arrays.active = tuple(array for array in arrays if array is not None)
+    return active
+
+
+def array_of(context: Context, key: str) -> VertexArray | None:
+    """Return the array of an attribute: the user's array, or one in a buffer object; None without one."""
+    arrays = context.arrays
+    if key not in arrays.offsets:
+        return arrays.pointers.get(key)
+    name, offset = arrays.offsets[key]
+    bound, layout = context.buffers[name], arrays.layout(key)
+    array: VertexArray = bound.view((key, offset, layout), lambda: _array_in(bound, key, offset, layout))
+    return array
+
+
+def _array_in(bound: BufferObject, key: str, offset: int, layout: ArrayLayout) -> VertexArray:
+    """Return an array in a buffer object; bytes after the last whole number are left out."""
+    dtype, content = DTYPES[layout.type], bound.content[offset:]
+    values = content[: len(content) // dtype.itemsize * dtype.itemsize].view(dtype)
+    return VertexArray(SLOTS[key], rows_of(values, dtype, layout.size, layout.stride), layout, bound, is_fixed=True)
 
 
 # -- several at once ---------------------------------------------------------------------------------------------------

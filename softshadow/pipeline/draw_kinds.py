@@ -48,6 +48,7 @@ KNOWN_UNITS = 256
 CELLS_ONLY = frozenset((Clear, Accumulate, BlitFramebuffer, UpdateImage, CopyToTexture, BeginQuery, DrawDepths))
 SHAPE = ("format", "internal_format", "width", "height", "slices")  # of an image
 Textures = tuple[Texture | None, ...]
+Form = tuple[int, tuple[int, ...], tuple[int, ...]]
 
 
 class Kind(NamedTuple):
@@ -80,10 +81,10 @@ class Kinds:
         # by the identity of what they depend on; the latest by all but tests, blending and clip planes
         self._known: dict[Hashable, list[Kind]] = {}
         self._latest: dict[Hashable, Kind] = {}
-        # the latest, and a draw of it: by its mode and what of its state matters; by the identity of the state and the
-        # mode, if the draw is small, as nobody counts the vertices that are kept so
+        # the latest, and a draw of it: by its `_form` and what of its state matters; by its form and the state's
+        # identity, if the draw is small, as nobody counts the vertices that are kept so
         self._of_states: dict[Hashable, tuple[Kind, Draw]] = {}
-        self._of_state: dict[tuple[int, int], tuple[Kind, Draw]] = {}
+        self._of_state: dict[tuple[int, Form], tuple[Kind, Draw]] = {}
         self._batch_numbers: dict[Hashable, int] = {}  # by geometry key
         self._next_number = count()
         self._known_vertices = 0
@@ -94,22 +95,22 @@ class Kinds:
         """Return the kind of a draw, or None if it cannot wait."""
         if not may_wait(command) or not (self._compiles or BATCH_KERNELS.are_compiled()):
             return None
-        state = command.state
-        known = self._of_state.get((id(state), command.mode))
+        place = id(command.state), _form(command)
+        known = self._of_state.get(place)
         if known is not None and known[0].run.continues(command, known[1]):
             return known[0]
         kind = self._of_equal_state(command)
         if kind is not None and len(command.vertices.position) < WORTH_COMPARING:
             if len(self._of_state) >= KNOWN_KINDS:
                 self._of_state.clear()
-            self._of_state[id(state), command.mode] = kind, command
+            self._of_state[place] = kind, command
         return kind
 
     def _of_equal_state(self, command: Draw) -> Kind | None:
         names = self._names_of(command.state)
         textures = tuple([self._storage.textures.get(name) for name in names])
         key = key_of(command), textures
-        place = key, structure_of(command.state.lighting), command.mode
+        place = key, structure_of(command.state.lighting), _form(command)
         known = self._of_states.get(place)
         if known is not None and known[0].run.continues_under(command, known[1]):
             return known[0]
@@ -206,6 +207,12 @@ class Kinds:
         self._latest = {key: kind for key, kind in self._latest.items() if not depends(kind)}
         self._of_states = {key: known for key, known in self._of_states.items() if not depends(known[0])}
         self._of_state.clear()
+
+
+def _form(command: Draw) -> Form:
+    """Return the mode, and whether colours and normals are arrays: what often differs between draws of one state."""
+    vertices = command.vertices
+    return command.mode, vertices.color.strides, vertices.normal.strides
 
 
 def _key_without_tests(command: Draw, textures: Textures) -> tuple[Hashable, ...]:

@@ -279,6 +279,81 @@ def test_buffer_that_is_replaced_is_read_again(context):
         gl.glDrawElements(gl.GL_POINTS, 4, gl.GL_UNSIGNED_BYTE, None)
 
 
+def draws_of_buffers() -> Any:
+    """Draw, each time after another change, with pointers and buffers that mostly stay; yield what must be drawn.
+
+    Two buffer objects hold positions, one holds indices; with each draw come the positions in its order.
+    """
+    places, others = np.arange(24, dtype=np.float32).reshape(8, 3), np.arange(24, 48, dtype=np.float32).reshape(8, 3)
+    numbers = np.uint8([0, 3, 1, 2, 5, 4])
+    for name, content in ((1, places), (3, others)):
+        gl.glBindBuffer(gl.GL_ARRAY_BUFFER, name)
+        gl.glBufferData(gl.GL_ARRAY_BUFFER, content, gl.GL_DYNAMIC_DRAW)
+    gl.glBindBuffer(gl.GL_ELEMENT_ARRAY_BUFFER, 2)
+    gl.glBufferData(gl.GL_ELEMENT_ARRAY_BUFFER, numbers, gl.GL_DYNAMIC_DRAW)
+    gl.glBindBuffer(gl.GL_ARRAY_BUFFER, 1)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, None)
+
+    def draw(count: int = 4, offset: int | None = None) -> None:
+        gl.glDrawElements(gl.GL_POINTS, count, gl.GL_UNSIGNED_BYTE, offset)
+
+    draw()
+    yield places[numbers[:4]]
+    draw(3, ctypes.c_void_p(2))
+    yield places[numbers[2:5]]
+    draw()
+    yield places[numbers[:4]]
+    gl.glBufferSubData(gl.GL_ELEMENT_ARRAY_BUFFER, 1, np.uint8([2]))
+    numbers[1] = 2
+    draw()
+    yield places[numbers[:4]]
+    gl.glBufferSubData(gl.GL_ARRAY_BUFFER, 0, np.float32([7]))
+    places[0, 0] = 7
+    draw()
+    yield places[numbers[:4]]
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, 12)
+    draw()
+    yield places[1:][numbers[:4]]
+    gl.glBindBuffer(gl.GL_ARRAY_BUFFER, 3)
+    draw()  # the pointer still says where
+    yield places[1:][numbers[:4]]
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, 12)
+    draw()
+    yield others[1:][numbers[:4]]
+    gl.glBindBuffer(gl.GL_ARRAY_BUFFER, 0)
+    own = -others
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, own)
+    draw()
+    yield own[numbers[:4]]
+    own[0, 0] = 9
+    draw()
+    yield own[numbers[:4]]
+    gl.glDeleteBuffers(1, [2])
+    gl.glBindBuffer(gl.GL_ELEMENT_ARRAY_BUFFER, 2)
+    gl.glBufferData(gl.GL_ELEMENT_ARRAY_BUFFER, numbers[::-1].copy(), gl.GL_DYNAMIC_DRAW)
+    draw()
+    yield own[numbers[::-1][:4]]
+
+
+def test_repeated_draws_of_buffers_see_each_change(context):
+    for expected in draws_of_buffers():
+        vertices, indices = context.drawn[-1]
+        assert (vertices.position[indices, :3] == expected).all()
+
+
+def test_repeated_draws_of_buffers_have_the_enabled_arrays(context):
+    draws = draws_of_buffers()
+    next(draws)
+    gl.glColorPointer(3, gl.GL_FLOAT, 0, None)
+    gl.glEnableClientState(gl.GL_COLOR_ARRAY)
+    gl.glDrawElements(gl.GL_POINTS, 4, gl.GL_UNSIGNED_BYTE, None)
+    assert context.drawn[-1][0].color.strides[0]
+    gl.glDisableClientState(gl.GL_COLOR_ARRAY)
+    gl.glDrawElements(gl.GL_POINTS, 4, gl.GL_UNSIGNED_BYTE, None)
+    assert context.drawn[-1][0].color.tolist() == [[1, 1, 1, 1]] * 4
+    assert context.drawn[-1][0] is context.drawn[0][0]
+
+
 def test_many_parts_of_one_array_are_copied_a_few_times(context):
     """Strips of a large array: bytes copied in proportion to the array, not to its square."""
     corners = np.random.default_rng(2).random((64 * 500, 3)).astype(np.float32)
