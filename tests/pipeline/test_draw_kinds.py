@@ -206,3 +206,23 @@ def test_clip_planes_that_change_need_no_plan_and_cut_their_own_draws(planned, b
     assert picture() == expected
     assert len(planned) == 1
     assert sorted(batches) == [1] * 6 + [6], "draws without a plane are of one kind, whatever its equation is"
+
+
+def test_kinds_of_one_state_are_found_again_by_the_arrays_of_their_draws(monkeypatch):
+    """One colour, then a colour at each vertex, then one again: the groups of the state are compared once for each."""
+    gl.create_context(SIZE, SIZE)
+    compared = []
+    of_equal_state = draw_kinds.Kinds._of_equal_state
+    monkeypatch.setattr(
+        draw_kinds.Kinds, "_of_equal_state", lambda kinds, draw: compared.append(draw) or of_equal_state(kinds, draw)
+    )
+    for frame in range(4):
+        for colors in (1, 3):
+            gl.glBegin(gl.GL_TRIANGLE_STRIP)
+            for n, (x, y) in enumerate(((-1, -1), (1, -1), (-1, 1), (1, 1))):
+                if n < colors:
+                    gl.glColor3f(0.2 * n, 0.5, 0.25 * frame)
+                gl.glVertex2f(x, y)
+            gl.glEnd()
+            gl.glFinish()
+    assert [draw.vertices.color.strides[0] > 0 for draw in compared] == [False, True]
