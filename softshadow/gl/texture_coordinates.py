@@ -53,10 +53,12 @@ def glTexCoord2f(s: float, t: float) -> None:
     """Set the texture coordinate of unit 0; r = 0, q = 1."""
     context = thread.context
     try:
-        hypot(s, t)  # the quickest question whether these are numbers
+        if not (type(s) is float and type(t) is float):
+            hypot(s, t)  # the quickest question whether these are numbers
+            s, t = float(s), float(t)
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("texcoord0") == 2:
-            context.current.texcoords[0] = coordinate = (float(s), float(t), 0.0, 1.0)
+            context.current.texcoords[0] = coordinate = (s, t, 0.0, 1.0)
             primitive.changes["texcoord0"].append((len(primitive.positions), coordinate))
         elif context.compiled_list is None:
             set_coordinate(0, s, t)

@@ -49,10 +49,12 @@ def glColor3f(red: float, green: float, blue: float) -> None:
     """Set the current colour, alpha 1."""
     context = thread.context
     try:
-        hypot(red, green, blue)  # the quickest question whether these are numbers
+        if not (type(red) is float and type(green) is float and type(blue) is float):
+            hypot(red, green, blue)  # the quickest question whether these are numbers
+            red, green, blue = float(red), float(green), float(blue)
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("color") == 3:
-            context.current.color = color = (float(red), float(green), float(blue), 1.0)
+            context.current.color = color = (red, green, blue, 1.0)
             primitive.changes["color"].append((len(primitive.positions), color))
         elif context.compiled_list is None:
             set_color(red, green, blue)
@@ -66,10 +68,12 @@ def glColor4f(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the current colour."""
     context = thread.context
     try:
-        hypot(red, green, blue, alpha)
+        if not (type(red) is float and type(green) is float and type(blue) is float and type(alpha) is float):
+            hypot(red, green, blue, alpha)
+            red, green, blue, alpha = float(red), float(green), float(blue), float(alpha)
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("color") == 4:
-            context.current.color = color = (float(red), float(green), float(blue), float(alpha))
+            context.current.color = color = (red, green, blue, alpha)
             primitive.changes["color"].append((len(primitive.positions), color))
         elif context.compiled_list is None:
             set_color(red, green, blue, alpha)
@@ -155,10 +159,12 @@ def glNormal3f(nx: float, ny: float, nz: float) -> None:
     """Set the current normal."""
     context = thread.context
     try:
-        hypot(nx, ny, nz)  # the quickest question whether these are numbers
+        if not (type(nx) is float and type(ny) is float and type(nz) is float):
+            hypot(nx, ny, nz)  # the quickest question whether these are numbers
+            nx, ny, nz = float(nx), float(ny), float(nz)
         primitive = context.primitive
         if primitive is not None and primitive.steady.get("normal") == 3:
-            context.current.normal = normal = (float(nx), float(ny), float(nz))
+            context.current.normal = normal = (nx, ny, nz)
             primitive.changes["normal"].append((len(primitive.positions), normal))
         elif context.compiled_list is None:
             set_normal(nx, ny, nz)
