@@ -217,11 +217,12 @@ def test_kinds_of_one_state_are_found_again_by_the_arrays_of_their_draws(monkeyp
         draw_kinds.Kinds, "_of_equal_state", lambda kinds, draw: compared.append(draw) or of_equal_state(kinds, draw)
     )
     for frame in range(4):
-        for colors in (1, 3):
+        for has_colors in (False, True):
+            gl.glColor3f(0.25 * frame, 0.5, 0.0)
             gl.glBegin(gl.GL_TRIANGLE_STRIP)
-            for n, (x, y) in enumerate(((-1, -1), (1, -1), (-1, 1), (1, 1))):
-                if n < colors:
-                    gl.glColor3f(0.2 * n, 0.5, 0.25 * frame)
+            for x, y in ((-1, -1), (1, -1), (-1, 1), (1, 1)):
+                if has_colors:
+                    gl.glColor3f(0.5, 0.25 * frame, 0.5 * x + 0.5)
                 gl.glVertex2f(x, y)
             gl.glEnd()
             gl.glFinish()
