@@ -130,8 +130,10 @@ class CurrentValues(ChangingState):
         if old_values:
             for name, old_value in old_values.items():
                 bit = gl.GL_LIGHTING_BIT if "." in name else gl.GL_CURRENT_BIT
-                if not self.touched & bit and old_value != self.attribute(name):
+                if not self.touched & bit and (old_value != self.attribute(name) or name in pending.never_set):
                     self.touched |= bit
+                if name in pending.never_set:
+                    pending.never_set -= {name}
             old_values.clear()
             pending.settled = None
             if self.vertex_buffer.paused is not None:  # its next attributes are pending again

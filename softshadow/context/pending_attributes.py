@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+SHININESSES = frozenset(("front.shininess", "back.shininess"))
+
 
 @dataclass
 class PendingAttributes:
@@ -22,6 +24,9 @@ class PendingAttributes:
     before_following         the materials before they followed a colour that is not yet current: as
                              `StateGroups.followed`, or their values by name
     settled                  the colour that materials followed last, stored in them since: as `StateGroups.followed`
+    never_set : frozenset    "front.shininess", "back.shininess", as long as they have their first value: setting it
+                             counts as a change then, even to an equal value. Mesa compares four numbers of each
+                             attribute; the fourth is 0 in the initial shininess, and 1 in any that was set.
     reset_due : bool         whether the next change of state resets the attributes
     has_vertices : bool      whether it does so because of vertices, not of a query of current values
     """
@@ -31,5 +36,6 @@ class PendingAttributes:
     hidden: dict[str, Any] = field(default_factory=dict)
     before_following: Any = None
     settled: Any = None
+    never_set: frozenset[str] = SHININESSES
     reset_due: bool = False
     has_vertices: bool = False

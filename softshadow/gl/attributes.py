@@ -3,6 +3,7 @@
 Mesa restores less than GL 2.1, sec. 6.1.14, requires (main/attrib.c):
 
 - A pop restores only those pushed groups that Mesa has marked as changed since the push.
+- A shininess that is set for the first time marks the materials as changed, even if it is the initial one.
 - A pop clears the marks made since its push, so an outer pop does not restore these changes.
 - GL_LIGHTING_BIT restores whether each light is enabled; GL_ENABLE_BIT does not.
 - A colour, normal, texture coordinate or material that was set since the push, but used by no vertex, is only hidden:
@@ -70,6 +71,7 @@ class SavedAttributes(NamedTuple):
     current: tuple[Any, ...]
     samplers: dict[tuple[int, int], Sampler]  # of the bound textures, by (target, key in the storage)
     others: OtherAttributes
+    never_set: frozenset[str]  # as in `PendingAttributes`
 
 
 def glPushAttrib(mask: int) -> None:
@@ -115,6 +117,7 @@ def glPushAttrib(mask: int) -> None:
             else (),
             samplers,
             others,
+            context.pending.never_set,
         )
         context.attribute_stack.append(entry)
         context.touched, context.touched_before, context.state_at_push = 0, 0, state
@@ -232,7 +235,7 @@ def _restore_at_once(context: Context, bits: tuple[int, ...], state: State, save
     context.state = with_groups(bits, state, saved.state)
     for bit in bits:
         if bit == gl.GL_LIGHTING_BIT:
-            context.state_groups.followed = saved.followed
+            context.state_groups.followed, context.pending.never_set = saved.followed, saved.never_set
         elif bit in OTHERS:
             OTHERS[bit](context, saved)
 
@@ -287,7 +290,7 @@ def _restore_materials(context: Context, saved: SavedAttributes) -> None:
         if "." in name and name not in pending.old_values:
             pending.hidden.setdefault(name, context.attribute(name))
     values = {name: context.attribute(name) for name in pending.old_values if "." in name}
-    state = context.state
+    state, pending.never_set = context.state, saved.never_set
     if state.lighting.front is not old.front or state.lighting.back is not old.back:
         lighting = evolve_to(old, state.lighting, front=old.front, back=old.back)
         context.state = evolve_to(saved.state, state, lighting=lighting)

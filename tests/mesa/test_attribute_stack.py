@@ -282,3 +282,50 @@ def test_materials_that_follow_a_colour_return_with_a_lighting_that_has_changed(
 
     comparison = compare(program, (8, 8))
     assert comparison, str(comparison)
+
+
+EARLIER = {  # what comes before the push: does a shininess of 0 change anything after it?
+    "never set": (),
+    "set": ("shininess",),
+    "set and drawn": ("shininess", "point"),
+    "set and taken back": ("push", "shininess", "point", "pop"),
+    "set again and taken back": ("shininess", "point", "push", "shininess", "point", "pop"),
+}
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("face", ["GL_FRONT", "GL_BACK", "GL_FRONT_AND_BACK"])
+@pytest.mark.parametrize("earlier", EARLIER)
+@pytest.mark.parametrize("is_vertex_attribute", [False, True])
+def test_the_first_shininess_is_a_change_even_if_it_is_the_initial_one(is_vertex_attribute, earlier, face):
+    """The change lets glPopAttrib restore all materials; they follow a colour that is set meanwhile."""
+
+    def program(gl):
+        def point(y):
+            gl.glBegin(gl.GL_POINTS)
+            gl.glVertex2f(0, y)
+            gl.glEnd()
+
+        calls = {
+            "shininess": lambda: gl.glMaterialf(getattr(gl, face), gl.GL_SHININESS, 0.0),
+            "point": lambda: point(-0.5),
+            "push": lambda: gl.glPushAttrib(gl.GL_LIGHTING_BIT),
+            "pop": gl.glPopAttrib,
+        }
+        gl.glEnable(gl.GL_COLOR_MATERIAL)
+        for name in (*EARLIER[earlier], "push"):
+            calls[name]()
+        if not is_vertex_attribute:
+            calls["shininess"]()
+        gl.glBegin(gl.GL_POINTS)
+        if is_vertex_attribute:
+            calls["shininess"]()
+        gl.glColor3f(0.4, 0.9, 0.5)
+        gl.glVertex2f(0, -0.5)
+        gl.glEnd()
+        calls["pop"]()
+        gl.glEnable(gl.GL_LIGHTING)
+        point(0.5)
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
