@@ -64,7 +64,7 @@ def glPopMatrix() -> None:
     if not context.ready:
         if not is_allowed(context, glPopMatrix):
             return
-        if context.has_collected and len(stack) > 1 and not stack.equals_pushed:
+        if not context.ready and stack.below and not stack.equals_pushed:
             context.flush()
             context.ready = True
     below = stack.below

@@ -150,7 +150,7 @@ glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
 
 # -- normal ------------------------------------------------------------------------------------------------------------
 def set_normal(x: float, y: float, z: float) -> None:
-    context = current()
+    context = thread.context
     carry_attribute(context, "normal", 3)
     set_attribute(context, "normal", 3, (float(x), float(y), float(z)))
 
