@@ -30,13 +30,14 @@ class Wrapping:
     ----------
     name : what tracebacks call the source
     body : source of the functions, in which ``call`` is the call, ``function`` the function itself, ``{parameters}``
-        what it was called with, and ``{has_text}`` whether one of them is a str
+        what it was called with, and ``{has_text}`` whether one of them is a str; False for a part of a call, as the
+        call has looked at its arguments
     names : what else the source uses
     """
 
     def __init__(self, name: str, body: str, **names: Any) -> None:
         self._name, self._body, self._names = name, body.strip("\n"), names
-        self._makers: dict[int | None, Callable[..., Any]] = {}
+        self._makers: dict[tuple[int | None, bool], Callable[..., Any]] = {}
 
     def around(self, call: Callable[..., Any]) -> Callable[..., Any]:
         """Return a function around a call.
@@ -45,10 +46,10 @@ class Wrapping:
         error of a wrong number of arguments names the function.
         """
         names = _plain_parameters(call)
-        count = None if names is None else len(names)
-        if count not in self._makers:
-            self._makers[count] = self._maker(count)
-        function: Any = self._makers[count](call)
+        kind = None if names is None else len(names), not getattr(call, "__name__", "").startswith("_")
+        if kind not in self._makers:
+            self._makers[kind] = self._maker(*kind)
+        function: Any = self._makers[kind](call)
         if names is not None:
             code = function.__code__
             local = names + code.co_varnames[len(names) :]
@@ -56,7 +57,7 @@ class Wrapping:
         wrapper: Callable[..., Any] = functools.wraps(call)(function)
         return wrapper
 
-    def _maker(self, count: int | None) -> Callable[..., Any]:
+    def _maker(self, count: int | None, looks_for_text: bool) -> Callable[..., Any]:
         """Return a function that makes the functions with so many parameters, still without their names."""
         if count is None:
             parameters, has_text = "*arguments, **by_name", "str in map(type, arguments)"
@@ -64,7 +65,7 @@ class Wrapping:
             numbered = [f"_{number}" for number in range(count)]
             parameters = ", ".join(numbered)
             has_text = " or ".join(f"type({name}) is str" for name in numbered) or "False"
-        body = self._body.format(parameters=parameters, has_text=has_text)
+        body = self._body.format(parameters=parameters, has_text=has_text if looks_for_text else "False")
         source = SOURCE.format(parameters=parameters, body=indent(body, " " * 8))
         file = str(Path(__file__).with_name(f"<{self._name}, parameters: {'any' if count is None else count}>"))
         linecache.cache[file] = len(source), None, source.splitlines(keepends=True), file  # tracebacks show the lines

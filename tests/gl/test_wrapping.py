@@ -55,6 +55,18 @@ def test_text_among_the_parameters_is_found() -> None:
     assert [function(*pair) for pair in ((1, 2), ("1", 2), (1, "2"))] == [False, True, True]
 
 
+def test_a_part_of_a_call_may_have_text() -> None:
+    def _part(operation: str, number: int) -> None:
+        pass
+
+    assert not Wrapping("text of a part", "return {has_text}").around(_part)("glCall", 1)
+    with (
+        gl.create_context(4, 3),
+        pytest.raises(TypeError, match=r"^glCopyTexImage2D\(width='2'\): expected an integer"),
+    ):
+        gl.glCopyTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 0, 0, "2", 2, 0)  # type: ignore[arg-type]
+
+
 def test_a_wrong_number_of_arguments_is_an_error_of_the_call() -> None:
     with gl.create_context(4, 3), pytest.raises(TypeError, match=r"^glStencilFunc\(\) missing 2 required"):
         gl.glStencilFunc(gl.GL_LESS)  # type: ignore[call-arg]
