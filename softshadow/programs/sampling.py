@@ -73,11 +73,12 @@ def _has_levels(texture: Texture, last: int) -> bool:
         return False
     model = image
     for level in range(base, last + 1):
+        if level > base:
+            width, height, slices = (max(side // 2, 1) for side in (model.width, model.height, model.slices))
+            model = replace(model, width=width, height=height, slices=slices)
         images = [texture.images.get((face, level)) for face in texture.faces]
         if not all(image is not None and image.is_laid_out_as(model) for image in images):
             return False
-        width, height, slices = (max(side // 2, 1) for side in (model.width, model.height, model.slices))
-        model = replace(model, width=width, height=height, slices=slices)
     return last >= base
 
 
