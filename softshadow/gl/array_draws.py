@@ -183,6 +183,7 @@ def _draw_one_by_one(mode: int, vertices: Sequence[int]) -> None:
 def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:
     """Draw arrays of a display list; attributes without an array have the values that are current now."""
     context = current()
+    context.flush()
     context.draw(mode, _vertices(context, rows), indices)
 
 

@@ -58,18 +58,13 @@ def glArrayElement(i: int) -> None:
             values = tuple(rows[i].tolist()) if unpack is None else unpack(memory, i * stride)
             if convert is not None:
                 values = tuple([convert(number) for number in values])
-            # the branches that change no vertex format do what glVertex, glColor ... do then, in half the time
-            if primitive is None:
-                _set_or_record(context, call, key, values)
-            elif slot == POSITION:
-                if primitive.position_size == size:
-                    positions = primitive.positions
-                    positions += values + rest
-                    if len(positions) >= primitive.limit:
-                        store_vertices(context, primitive)
-                else:
-                    _set_or_record(context, call, key, values)
-            elif primitive.steady.get(key) == size:
+            # the first two change no vertex format: they do what glVertex, glColor ... do then, in half the time
+            if primitive is not None and slot == POSITION and primitive.position_size == size:
+                positions = primitive.positions
+                positions += values + rest
+                if len(positions) >= primitive.limit:
+                    store_vertices(context, primitive)
+            elif primitive is not None and primitive.steady.get(key) == size:
                 value: Any = values + rest
                 primitive.changes[key].append((len(primitive.positions), value))
                 if slot == NORMAL:
@@ -78,8 +73,12 @@ def glArrayElement(i: int) -> None:
                     context.current.color = value
                 else:
                     context.current.texcoords[slot - TEXCOORD] = value
+            elif call is not None:
+                call(*values)
+            elif context.compiled_list is None:
+                _set_attribute(key, values)
             else:
-                _set_or_record(context, call, key, values)
+                _record_attribute(key, values)
     except CONVERTING as error:
         raise refusal(glArrayElement, error, i) from error
 
@@ -128,16 +127,6 @@ def _reader(array: VertexArray) -> _Reader:
     conversion = None if rows.dtype.kind == "f" else convert
     call = CALLS.get((key, rows.shape[1]))
     return _Reader(slot, key, size, rest, rows, len(rows), call, conversion, unpack, memory, rows.strides[0])
-
-
-def _set_or_record(context: Context, call: Callable[..., None] | None, key: str, values: Sequence[float]) -> None:
-    """Set an attribute, or record this in the list that is compiled."""
-    if call is not None:
-        call(*values)
-    elif context.compiled_list is None:
-        _set_attribute(key, values)
-    else:
-        _record_attribute(key, values)
 
 
 def _set_attribute(key: str, values: Sequence[float]) -> None:

@@ -158,7 +158,7 @@ def _pointer(
             return
         layout = ArrayLayout(int(size), int(type), int(stride))
         place = (arrays.array_buffer, offset_of(pointer)) if arrays.array_buffer else None
-        if place is not None and arrays.offsets.get(key) == place and arrays.layouts[key] == layout:
+        if place is not None and arrays.offsets.get(key) == place and arrays.layouts.get(key) == layout:
             return
         arrays.layouts[key], arrays.active = layout, None
         arrays.pointers.pop(key, None)
