@@ -16,7 +16,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from softshadow import tokens as gl
-from softshadow.context import Context, CurrentVertex, thread
+from softshadow.context import Context, thread
 from softshadow.context.color_indices import ColorIndices
 from softshadow.context.evaluators import EvaluatorSettings
 from softshadow.context.state_groups import Followed
@@ -34,7 +34,7 @@ from softshadow.state.texturing import BINDINGS
 from softshadow.texture import Sampler, initial_sampler, stored_name
 
 DEEPEST_ATTRIBUTES = 16
-USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT
+USED_BY_VERTICES = gl.GL_CURRENT_BIT | gl.GL_LIGHTING_BIT  # groups that have none of the `OtherAttributes`
 WITH_MATERIALS = gl.GL_LIGHTING_BIT | gl.GL_ENABLE_BIT  # groups with materials, or with whether they follow colours
 WITH_BUFFERS = gl.GL_COLOR_BUFFER_BIT | gl.GL_PIXEL_MODE_BIT
 NO_SAMPLERS: dict[tuple[int, int], Sampler] = {}
@@ -61,7 +61,7 @@ class SavedAttributes(NamedTuple):
     The stack holds plain tuples, which are made faster. The materials of `state` do not contain the colour `followed`.
 
     `touched` are the bits of the groups that had changed between the previous push and this one, and `current` the
-    fields of `CurrentVertex`. What may change is a copy, and is saved only if `mask` includes it.
+    fields of `softshadow.context.CurrentVertex`. What may change is a copy, and is saved only if `mask` includes it.
     """
 
     mask: int
@@ -87,7 +87,7 @@ def glPushAttrib(mask: int) -> None:
         touched, others = context.touched | context.touched_before, context.others_at_push
         if state is not context.state_at_push:
             touched, others = touched | changed_groups(context.state_at_push, state), None
-        if others is None or context.touched:
+        if others is None or context.touched & ~USED_BY_VERTICES:
             others = context.others_at_push = _other_attributes(context, state)
         if mask & USED_BY_VERTICES and context.pending.old_values:
             context.update_current()
@@ -186,7 +186,7 @@ def glPopAttrib() -> None:
         if mask & WITH_BUFFERS:
             _restore_buffers(context, mask, saved)
         state = context.drawn_state
-    if marked or state is not entry[2]:
+    if marked & ~USED_BY_VERTICES or state is not entry[2]:
         context.others_at_push = None
     context.touched, context.touched_before, context.state_at_push = 0, touched, state
 
@@ -280,8 +280,10 @@ def _restore_current(context: Context, saved: SavedAttributes) -> None:
     for name in context.pending.names:
         if "." not in name:
             context.pending.hidden.setdefault(name, context.attribute(name))
-    color, normal, texcoords, *others = saved.current
-    context.current = CurrentVertex(color, normal, list(texcoords), *others)
+    now = context.current
+    (
+        now.color, now.normal, now.texcoords[:], now.raster, now.edge, now.secondary, now.fog_coordinate, now.index
+    ) = saved.current  # fmt: skip
 
 
 def _restore_materials(context: Context, saved: SavedAttributes) -> None:
