@@ -312,7 +312,7 @@ class Context(CurrentValues, Precision):
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
         current = self.current
-        if current.edge and current.secondary == BLACK and current.fog_coordinate == 0:
+        if current.is_plain:
             return vertices
         added: dict[str, Any] = {}
         if not current.edge and vertices.edges is None:

@@ -30,6 +30,11 @@ class CurrentVertex:
     fog_coordinate: float = 0.0
     index: float = 1.0  # of a colour, which nothing is drawn with
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether edge flag, secondary colour and fog coordinate have their first values: then no vertex needs them."""
+        return self.edge and self.secondary == BLACK and not self.fog_coordinate
+
 
 class CurrentValues(ChangingState):
     """The current values of a context, by name: those of `CurrentVertex`, "texcoord0", "front.diffuse" ...

@@ -18,7 +18,6 @@ from softshadow.gl.materials import follow_color
 from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
 from softshadow.pipeline.commands import Draw, Vertices, draws_like
 from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE
-from softshadow.state import BLACK
 
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
 NO_STARTS: Mapping[str, int] = {}
@@ -143,9 +142,7 @@ def first_pairs(
 def _can_be_similar(context: Context) -> bool:
     """Return whether pairs may be drawn without their calls, as far as the vertex format does not decide it."""
     is_listed = context.compiled_list is not None or context.list_depth or context.executes_list
-    current = context.current
-    plain = current.edge and current.secondary == BLACK and not current.fog_coordinate
-    return plain and not is_listed and context.primitive is None
+    return context.current.is_plain and not is_listed and context.primitive is None
 
 
 def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | None:

@@ -19,7 +19,6 @@ from softshadow.context.current_values import UNIT_OF
 from softshadow.gl.constant_attributes import OPTIONAL, carried_of, kept_constants
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
-from softshadow.state import BLACK
 
 REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not set
 TEXCOORDS = tuple(UNIT_OF)
@@ -267,7 +266,7 @@ def vertices_of(context: Context, primitive: Primitive, start: int = 0, end: int
     for unit, name in carried.units:
         texcoords = (*texcoords[:unit], rows(name), *texcoords[unit + 1 :])
     edges = secondary = fog_coordinates = None
-    if carried.optional or not current.edge or current.secondary != BLACK or current.fog_coordinate:
+    if carried.optional or not current.is_plain:
         edges, secondary, fog_coordinates = [
             _optional_rows(context, primitive, name, rows, start, end) for name in OPTIONAL
         ]

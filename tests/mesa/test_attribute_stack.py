@@ -329,3 +329,47 @@ def test_the_first_shininess_is_a_change_even_if_it_is_the_initial_one(is_vertex
 
     comparison = compare(program, SIZE)
     assert comparison, str(comparison)
+
+
+BEFORE_ARRAYS = {  # calls of the list before it draws arrays: a colour that is hidden returns first
+    "hidden": ("push", "green", "pop"),
+    "hidden after another": ("blue point", "push", "green", "pop"),
+    "hidden, another drawn": ("push", "blue point", "green", "pop"),
+    "set": ("green",),
+}
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("before", BEFORE_ARRAYS)
+def test_arrays_that_a_list_draws_have_the_colour_that_returns(before):
+    """With edge flags, they are drawn as by glDrawArrays, not as a glBegin ... glEnd pair."""
+    corners, flags = np.float32([[-1, -1], [1, -1], [1, 1], [-1, 1]]), np.ones(4, np.uint8)
+
+    def program(gl):
+        def blue_point():
+            gl.glBegin(gl.GL_POINTS)
+            gl.glColor3f(0, 0, 1)
+            gl.glVertex2f(0, 0)
+            gl.glEnd()
+
+        calls = {
+            "push": lambda: gl.glPushAttrib(gl.GL_CURRENT_BIT),
+            "green": lambda: gl.glColor3f(0, 1, 0),
+            "blue point": blue_point,
+            "pop": gl.glPopAttrib,
+        }
+        gl.glColor3f(1, 0, 0)
+        gl.glVertexPointer(2, gl.GL_FLOAT, 0, corners)
+        gl.glEdgeFlagPointer(0, flags)
+        gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+        gl.glEnableClientState(gl.GL_EDGE_FLAG_ARRAY)
+        gl.glNewList(1, gl.GL_COMPILE)
+        for name in BEFORE_ARRAYS[before]:
+            calls[name]()
+        gl.glDrawArrays(gl.GL_QUADS, 0, 4)
+        gl.glEndList()
+        gl.glCallList(1)
+        return gl.glGetFloatv(gl.GL_CURRENT_COLOR)
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
