@@ -51,6 +51,10 @@ class ChangingState:
         """Draw the collected bitmaps and vertices."""
         raise NotImplementedError
 
+    def separate(self) -> None:
+        """Draw them, maybe later: what follows is not joined to them."""
+        raise NotImplementedError
+
     @property
     def has_collected(self) -> bool:
         """Whether vertices or bitmaps are collected, or attributes wait for the next change of the state."""
@@ -89,7 +93,7 @@ class ChangingState:
         fields = changed.fields
         if fields[name] is not value:
             if not self.ready and self._would_redraw((group,), {name: value}):
-                self.flush()
+                self.separate()
             if changed.is_lighting and fields[name] != value:
                 self.mark_materials()
             fields[name] = value
@@ -102,7 +106,7 @@ class ChangingState:
     def change_fields(self, group: str, fields: Mapping[str, Any]) -> None:
         """Set fields of a group of the state, as `change_field` does."""
         if not self.ready and self._would_redraw((group,), fields):
-            self.flush()
+            self.separate()
         changed = self.groups[group]
         if changed.is_lighting and any(changed.fields[name] != value for name, value in fields.items()):
             self.mark_materials()
@@ -120,7 +124,7 @@ class ChangingState:
     def change_groups(self, groups: Sequence[str], fields: Mapping[str, Any]) -> None:
         """Set the same fields in several groups of the state, as `change_field` does."""
         if not self.ready and self._would_redraw(groups, fields):
-            self.flush()
+            self.separate()
         by_name, mark = self.groups, self.changed.add
         for name in groups:
             group = by_name[name]

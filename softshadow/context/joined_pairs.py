@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
+from softshadow.context.late_draws import LateDraw, LateVertices
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated
 from softshadow.pipeline.mesa.driver_draws import CORNERS, SEPARATE
@@ -23,28 +24,19 @@ OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the la
 Told = tuple[str, Origin | None]  # the debug groups that a pair belongs to ("outer/inner"), and its origin
 
 
-class LateVertices(Protocol):
-    """Vertices of pairs, whose arrays are made when they are drawn."""
-
-    primitive: Any  # which has the numbers
-
-    def vertices(self) -> Vertices:
-        """Return them."""
-
-
 class JoinedPairs:
     """Joined pairs that are not drawn yet.
 
     Attributes
     ----------
-    first : Draw             the command of the first one, with the state of all
+    first : Draw or LateDraw the command of the first one, with the state of all
     n_vertices : int         of all pairs
     parts : list             the debug groups, the origin and the vertices of one or more pairs
     """
 
     __slots__ = ("_can_be_separated", "_counts", "first", "n_vertices", "parts")
 
-    def __init__(self, first: Draw, n_vertices: int) -> None:
+    def __init__(self, first: Draw | LateDraw, n_vertices: int) -> None:
         self.first, self.n_vertices = first, n_vertices
         self.parts: list[tuple[Told, Vertices | LateVertices]] = [((first.label, first.origin), first.vertices)]
         self._counts = [n_vertices]  # of each pair
@@ -82,19 +74,25 @@ class JoinedPairs:
         if corners is not None:
             return self.n_vertices % corners == 0
         if self._can_be_separated is None:
-            self._can_be_separated = can_be_separated(self.first)
+            first = self.first
+            self._can_be_separated = can_be_separated(first.like if isinstance(first, LateDraw) else first)
         return self._can_be_separated
 
-    def commands(self) -> list[Draw]:
+    def commands(self) -> Sequence[Draw | LateDraw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
+        first = self.first
         if len(self._counts) == 1:
-            return [self.first]
+            return [first]
+        if isinstance(first, LateDraw) and len(self.parts) == 1 and first.mode in SEPARATE:
+            return [first]  # it has the vertices of all pairs
         parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
+        if isinstance(first, LateDraw):
+            first = first.made(parts[0][1])
         groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]
         commands, start, counts = [], 0, iter(self._counts)
         whole = join_vertices([vertices for _, vertices in parts]).position if len(groups) > 1 else None
         for (label, origin), group in groups:
-            command = self.first._replace(vertices=join_vertices(group), label=label, origin=origin)
+            command = first._replace(vertices=join_vertices(group), label=label, origin=origin)
             end = start + len(command.vertices.position)
             if command.mode not in SEPARATE:
                 command = separated(command, tuple(_counts_until(end - start, counts)))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import struct
+from array import array
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
@@ -45,10 +47,36 @@ class Precision:
         dtype, width = self._dtype, len(row)
         return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
 
+    def packed_parts(self, parts: Sequence[Sequence[float]], widths: Sequence[int]) -> list[np.ndarray]:
+        """Return what `packed` returns of each part as rows of so many numbers; the arrays share their memory."""
+        dtype, arrays, start = self._dtype, [], 0
+        joined: array[float] = array(dtype.char)
+        for part in parts:
+            joined.extend(part)
+        data, size = joined.tobytes(), dtype.itemsize
+        for part, width in zip(parts, widths, strict=True):
+            arrays.append(np.ndarray((len(part) // width, width), dtype, data, start))
+            start += len(part) * size
+        return arrays
+
     def constant(self, row: Sequence[float], count: int) -> np.ndarray:
         """Return a read-only view of `count` equal rows."""
         dtype, width = self._dtype, len(row)
         return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row), 0, (0, dtype.itemsize))
+
+
+@dataclass(eq=False, slots=True)
+class LatestRows:
+    """The rows of the latest value of an attribute; nothing is kept of earlier ones: programs set many colours."""
+
+    value: tuple[float, ...] | None = None
+    rows: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
+
+    def of(self, precision: Precision, value: tuple[float, ...], count: int) -> np.ndarray:
+        """Return a read-only view of `count` equal rows."""
+        if value is not self.value or count != len(self.rows):
+            self.value, self.rows = value, precision.constant(value, count)
+        return self.rows
 
 
 @lru_cache(maxsize=256)

@@ -73,9 +73,9 @@ class Contents:
 
     def _add_array(self, array: np.ndarray) -> None:
         sizes, base = self._sizes, array.base
-        if type(base) is bytes:
-            self._own_bytes += len(base)
-            self.new_bytes += len(base)
+        if type(base) is bytes:  # nobody else has this part of it
+            self._own_bytes += array.nbytes
+            self.new_bytes += array.nbytes
             return
         while isinstance(base, np.ndarray):
             sizes[id(array)] = 0

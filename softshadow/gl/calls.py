@@ -85,7 +85,7 @@ def is_ready(context: Context, call: Callable[..., Any], *arguments: Any) -> boo
     """Return whether a call can be carried out now; before a call that can, draw the collected vertices."""
     if not is_allowed(context, call, *arguments):
         return False
-    context.flush()
+    context.separate()
     context.ready = True
     return True
 

@@ -17,6 +17,7 @@ import numpy as np
 from softshadow.context import Context, CurrentVertex
 from softshadow.context.arrays import COLOR, NORMAL, TEXCOORD
 from softshadow.context.current_values import UNIT_OF
+from softshadow.context.precision import LatestRows
 from softshadow.pipeline.commands import Vertices
 from softshadow.state import BLACK
 
@@ -123,20 +124,6 @@ class ConstantSet:
             self.normal.rows(count) if normal is None else normal,
             texcoords,
         )
-
-
-@dataclass(eq=False, slots=True)
-class LatestRows:
-    """The rows of the latest value of an attribute; nothing is kept of earlier ones: programs set many colours."""
-
-    value: tuple[float, ...] | None = None
-    rows: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
-
-    def of(self, context: Context, value: tuple[float, ...], count: int) -> np.ndarray:
-        """Return a read-only view of `count` equal rows."""
-        if value is not self.value or count != len(self.rows):
-            self.value, self.rows = value, context.constant(value, count)
-        return self.rows
 
 
 class DrawnVertices:

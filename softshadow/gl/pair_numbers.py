@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from softshadow.context import Context, Primitive
 from softshadow.context.joined_pairs import Told
-from softshadow.gl.constant_attributes import carried_of
+from softshadow.context.late_draws import LateDraw
+from softshadow.gl.constant_attributes import carried_of, kept_constants
 from softshadow.gl.vertex_format import vertices_of
 from softshadow.pipeline.commands import Vertices
 
@@ -34,16 +35,39 @@ class PairNumbers:
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     """Collect a pair, to draw it together with pairs that follow."""
-    buffer, count, vertices = context.vertex_buffer, len(primitive.positions) // 4, vertices_of(context, primitive)
+    buffer, count = context.vertex_buffer, len(primitive.positions) // 4
     if buffer.can_join(mode):
         joined = buffer.joined_pairs
         assert joined is not None
-        joined.add(_told(context), vertices, count)
+        joined.add(_told(context), vertices_of(context, primitive), count)
     else:
-        buffer.begin_joined_pairs(context.draw_command(mode, vertices), count)
+        first = _late_draw(context, mode, primitive) if count <= FEW else None
+        buffer.begin_joined_pairs(first or context.draw_command(mode, vertices_of(context, primitive)), count)
     is_listed = primitive.from_list or context.executes_list
     can_pause = count <= FEW and mode == primitive.mode and not (is_listed or primitive.arrays)
     buffer.paused = primitive if can_pause else None
+
+
+def _late_draw(context: Context, mode: int, primitive: Primitive) -> LateDraw | None:
+    """Return the draw of a pair whose arrays can be made later; None if they must be made now."""
+    current, carried = context.current, carried_of(tuple(context.vertex_buffer.sizes))
+    if primitive.arrays or primitive.materials or carried.optional or not current.is_plain:
+        return None
+    like = context.late_like(mode)
+    if like is None:
+        return None
+    for name in carried.columns:
+        if name not in primitive.changes:  # then all its vertices have the same value
+            primitive.changes[name] = [(0, context.attribute(name))]
+    return LateDraw(
+        like,
+        PairNumbers(context, primitive),
+        carried.columns,
+        current.color,
+        current.normal,
+        kept_constants(context).find_texcoords(context, carried.units),
+        *context.modelview_stack.drawn(),
+    )
 
 
 def resume(context: Context, mode: int) -> bool:
@@ -75,7 +99,8 @@ def _let_wait(context: Context, paused: Primitive) -> bool:
         buffer.paused = None
         return False
     vertices = joined.parts[-1][1]
-    assert isinstance(vertices, Vertices)
+    if not isinstance(vertices, Vertices):
+        return True
     rows = {name: vertices.texcoords[unit] for unit, name in carried.units}
     rows.update(color=vertices.color, normal=vertices.normal)
     for name in carried.columns:

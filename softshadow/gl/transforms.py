@@ -65,7 +65,7 @@ def glPopMatrix() -> None:
         if not is_allowed(context, glPopMatrix):
             return
         if not context.ready and stack.below and not stack.equals_pushed:
-            context.flush()
+            context.separate()
             context.ready = True
     below = stack.below
     if len(below) > stack.level:  # `stack.pop` in two thirds of the time

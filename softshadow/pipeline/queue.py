@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 import numpy as np
 
@@ -139,16 +140,33 @@ class DrawQueue:
         """
         if not self.add(commands[0]):
             return 0
-        others, counts = commands[1:], [len(command.vertices.position) for command in commands]
+        return len(commands) if self._add_others(commands[0], commands[1:]) else 1
+
+    def add_like(self, commands: Sequence[Draw]) -> int:
+        """Let draws wait that differ from the first one in vertices and modelview matrix only, as `add_alike` does.
+
+        They may have arrays of other attributes than the first one.
+        """
+        if not self.add(commands[0]):
+            return 0
+        if self._kind is None:
+            return 1
+        continues, first = self._kind.run.continues, commands[0]
+        others = list(takewhile(lambda command: continues(command, first), commands[1:]))
+        return 1 + len(others) if self._add_others(first, others) else 1
+
+    def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
+        """Let draws wait that continue the first one, the last that waits; do nothing if they are many or large."""
+        counts = [len(command.vertices.position) for command in (first, *others)]
         n_vertices = sum(counts) - counts[0]
         is_full = self._n_commands + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
         if is_full or max(counts) >= WORTH_COMPARING or self._kind is None or self._segment is None:
-            return 1
+            return False
         self._batches[self._kind.batch] += others
         self._segment.end += len(others)
         self._n_commands += len(others)
         self._n_vertices += n_vertices
-        return len(commands)
+        return True
 
     def add_other(self, command: Command, only_cells: bool) -> None:
         """Carry out a command that is no draw, now or later; `only_cells` is what `changes_cells_only` says of it.

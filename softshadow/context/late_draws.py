@@ -1,0 +1,145 @@
+"""Draws of glBegin ... glEnd pairs whose arrays are not made yet: those of many draws are made at once.
+
+A program that draws each of many objects between a glBegin and a glEnd, under a matrix and in a colour of its own,
+makes hundreds of draws of a few vertices in a frame. Making the arrays of one of them, and carrying it out, takes as
+long as its calls. So such draws wait with their numbers until something else is drawn, or someone looks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from softshadow.context.arrays import SLOTS, TEXCOORD
+from softshadow.context.precision import LatestRows, Precision
+from softshadow.pipeline.commands import Draw, Origin, Vertices
+
+# a draw that is kept for comparisons keeps the memory of all that waited with it
+MOST_NUMBERS = 8192  # of positions
+VERTICES, MODELVIEW, KIND = map(Draw._fields.index, ("vertices", "modelview", "modelview_kind"))
+NO_ROWS = np.empty((0, 4), np.float32)
+NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
+
+
+class ConstantTexcoords(Protocol):
+    """Values of the texture coordinates of all units."""
+
+    def rows(self, count: int) -> tuple[np.ndarray, ...]:
+        """Return `count` equal rows of each unit."""
+
+
+class LateVertices(Protocol):
+    """Vertices of pairs, whose arrays are made when they are drawn."""
+
+    primitive: Any  # which has the numbers
+
+    def vertices(self) -> Vertices:
+        """Return them."""
+
+
+class LateDraw(NamedTuple):
+    """A draw with the numbers of its vertices.
+
+    `like` is a draw that differs in its vertices and its modelview matrix only. The vertices carry the attributes
+    `columns`, which are among the changes of their primitive; the others have the values `color`, `normal` and
+    `texcoords`. It has neither debug groups nor an origin.
+    """
+
+    like: Draw
+    vertices: LateVertices
+    columns: tuple[str, ...]
+    color: tuple[float, ...]
+    normal: tuple[float, ...]
+    texcoords: ConstantTexcoords
+    modelview: np.ndarray
+    modelview_kind: int
+
+    @property
+    def mode(self) -> int:
+        """The mode of the pairs."""
+        return self.like.mode
+
+    @property
+    def called_mode(self) -> int:
+        """The same: several primitives are not drawn as separate ones."""
+        return self.like.mode
+
+    @property
+    def label(self) -> str:
+        """The debug groups: none."""
+        return self.like.label
+
+    @property
+    def origin(self) -> Origin | None:
+        """What the primitives were made from: nobody has told."""
+        return self.like.origin
+
+    def made(self, vertices: Vertices) -> Draw:
+        """Return the draw with arrays."""
+        fields: list[Any] = list(self.like)
+        fields[VERTICES], fields[MODELVIEW], fields[KIND] = vertices, self.modelview, self.modelview_kind
+        return Draw._make(fields)
+
+
+class LateDraws:
+    """Draws that wait for their arrays.
+
+    Parameters
+    ----------
+    precision : Precision    makes the arrays
+    """
+
+    def __init__(self, precision: Precision) -> None:
+        self._precision = precision
+        self._draws: list[LateDraw] = []
+        self._n_numbers = 0
+
+    def __bool__(self) -> bool:
+        return bool(self._draws)
+
+    def add(self, draw: LateDraw) -> bool:
+        """Let a draw wait; return whether so many wait that they should be taken."""
+        self._draws.append(draw)
+        self._n_numbers += len(draw.vertices.primitive.positions)
+        return self._n_numbers >= MOST_NUMBERS
+
+    def take(self) -> list[list[Draw]]:
+        """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only."""
+        draws, self._draws, self._n_numbers = self._draws, [], 0
+        rows = iter(self._rows(draws))
+        lists: list[list[Draw]] = []
+        like = None
+        latest_color, latest_normal = LatestRows(), LatestRows()
+        for draw in draws:
+            if draw.like is not like:
+                like = draw.like
+                lists.append([])
+            positions = next(rows)
+            count, own = len(positions), {name: next(rows) for name in draw.columns}
+            color = own.pop("color", None)
+            if color is None:
+                color = latest_color.of(self._precision, draw.color, count)
+            normal = own.pop("normal", None)
+            if normal is None:
+                normal = latest_normal.of(self._precision, draw.normal, count)
+            texcoords = draw.texcoords.rows(count)
+            for name, array in own.items():
+                unit = SLOTS[name] - TEXCOORD
+                texcoords = (*texcoords[:unit], array, *texcoords[unit + 1 :])
+            lists[-1].append(draw.made(Vertices(positions, color, normal, texcoords)))
+        return lists
+
+    def _rows(self, draws: Sequence[LateDraw]) -> list[np.ndarray]:
+        """Return the positions of each draw, and behind them what its vertices carry, in the order of `columns`."""
+        numbers: list[Sequence[float]] = []
+        widths: list[int] = []
+        for draw in draws:
+            primitive = draw.vertices.primitive
+            numbers.append(primitive.positions)
+            widths.append(4)
+            for name in draw.columns:
+                numbers.append(primitive.components(name, ()))
+                widths.append(3 if name == "normal" else 4)
+        return self._precision.packed_parts(numbers, widths)
