@@ -166,7 +166,7 @@ class Context(CurrentValues, Precision):
         """
         if self.text is not None:
             self._draw_text()
-        if self._late:
+        if self._late.draws:
             self._draw_late()
         self._waiting.carry_out()
         return self.objects
@@ -215,7 +215,7 @@ class Context(CurrentValues, Precision):
     def flush(self) -> None:
         """Draw what is collected, and what is late. Between glBegin and glEnd nothing is collected."""
         self.separate()
-        if self._late:
+        if self._late.draws:
             self._draw_late()
 
     def separate(self) -> None:
@@ -268,7 +268,7 @@ class Context(CurrentValues, Precision):
     def _carry_out(self, command: Command) -> None:
         if self.text is not None:
             self._draw_text()
-        if self._late:
+        if self._late.draws:
             self._draw_late()
         if self.gate is not None and not self.gate(command):
             return
@@ -287,7 +287,7 @@ class Context(CurrentValues, Precision):
 
     def _carry_out_alike(self, commands: Sequence[Draw]) -> None:
         """Carry out and record draws that differ from the first one in vertices and indices only."""
-        if self._late:
+        if self._late.draws:
             self._draw_late()
         self._carry_out_several(commands, self._waiting.add_alike)
 
@@ -368,10 +368,8 @@ class Context(CurrentValues, Precision):
     def draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         """Return a draw under the current state."""
         state = self.state_groups.drawn()
-        if state.lighting.color_material:
-            followed = self.state_groups.followed
-            if followed is None or followed[2] is not self.current.color:
-                state = with_kept_materials(self.state, vertices.color)
+        if not self._has_followed(state):
+            state = with_kept_materials(self.state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
         projection, projection_kind = self.projection_stack.drawn()
@@ -395,19 +393,20 @@ class Context(CurrentValues, Precision):
             command = command._replace(uniforms=uniforms, program_name=name, label="/".join(self.labels))
         return command
 
+    def _has_followed(self, state: State) -> bool:
+        """Return whether materials that follow the colour, if any do, have followed the current one."""
+        followed = self.state_groups.followed
+        return not state.lighting.color_material or (followed is not None and followed[2] is self.current.color)
+
     def late_like(self, mode: int) -> Draw | None:
         """Return a draw under the current state for `LateDraw`, or None if its arrays must be made at once.
 
         Draws are not late where they may fail, where someone is told about them, or where they depend on what a
         later call may change.
         """
-        if self.labels or self.origin is not None or self.gate is not None or self.executes_list or self.list_depth:
-            return None
         state = self.state_groups.drawn()
-        if state.lighting.color_material:
-            followed = self.state_groups.followed
-            if followed is None or followed[2] is not self.current.color:
-                return None
+        if self.labels or self.origin is not None or self.gate is not None or not self._has_followed(state):
+            return None
         like, projection = self._late_like, self.projection_stack.current
         matrices = self._texture_matrices or self.texture_matrices()
         if (

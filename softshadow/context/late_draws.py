@@ -86,6 +86,10 @@ class LateDraw(NamedTuple):
 class LateDraws:
     """Draws that wait for their arrays.
 
+    Attributes
+    ----------
+    draws : list             these, in their order
+
     Parameters
     ----------
     precision : Precision    makes the arrays
@@ -93,22 +97,19 @@ class LateDraws:
 
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
-        self._draws: list[LateDraw] = []
+        self.draws: list[LateDraw] = []
         self._n_numbers = 0
-
-    def __bool__(self) -> bool:
-        return bool(self._draws)
 
     def add(self, draw: LateDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
-        self._draws.append(draw)
+        self.draws.append(draw)
         self._n_numbers += len(draw.vertices.primitive.positions)
         return self._n_numbers >= MOST_NUMBERS
 
     def take(self) -> list[list[Draw]]:
         """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only."""
-        draws, self._draws, self._n_numbers = self._draws, [], 0
-        rows = iter(self._rows(draws))
+        draws, self.draws, self._n_numbers = self.draws, [], 0
+        rows, precision = iter(self._rows(draws)), self._precision
         lists: list[list[Draw]] = []
         like = None
         latest_color, latest_normal = LatestRows(), LatestRows()
@@ -117,17 +118,20 @@ class LateDraws:
                 like = draw.like
                 lists.append([])
             positions = next(rows)
-            count, own = len(positions), {name: next(rows) for name in draw.columns}
-            color = own.pop("color", None)
+            count = len(positions)
+            color, normal, texcoords = None, None, draw.texcoords.rows(count)
+            for name in draw.columns:
+                if name == "color":
+                    color = next(rows)
+                elif name == "normal":
+                    normal = next(rows)
+                else:
+                    unit = SLOTS[name] - TEXCOORD
+                    texcoords = (*texcoords[:unit], next(rows), *texcoords[unit + 1 :])
             if color is None:
-                color = latest_color.of(self._precision, draw.color, count)
-            normal = own.pop("normal", None)
+                color = latest_color.of(precision, draw.color, count)
             if normal is None:
-                normal = latest_normal.of(self._precision, draw.normal, count)
-            texcoords = draw.texcoords.rows(count)
-            for name, array in own.items():
-                unit = SLOTS[name] - TEXCOORD
-                texcoords = (*texcoords[:unit], array, *texcoords[unit + 1 :])
+                normal = latest_normal.of(precision, draw.normal, count)
             lists[-1].append(draw.made(Vertices(positions, color, normal, texcoords)))
         return lists
 

@@ -71,11 +71,13 @@ class MatrixStack:
         self._is_single = real is np.float32
         self._carry_out: Any = products.carry_out_by_textbook
         self._computed = 0
-        self._size = 16 * np.dtype(real).itemsize  # bytes of a matrix
+        self._dtype = np.dtype(real)
+        self._size = 16 * self._dtype.itemsize  # bytes of a matrix
         self._matrices = bytearray(limit * self._size)
+        self._bytes = memoryview(self._matrices)
         self._levels = np.frombuffer(self._matrices, real).reshape(limit, 4, 4)
         self._levels[0] = np.eye(4)
-        self._identity = _read_only(self._levels[0])
+        self._identity = self._copy(0)
         self.unresolved_kind = 0
         self.known: np.ndarray | None = self._identity
         self.below: list[tuple[int, np.ndarray | None, int]] = []
@@ -94,15 +96,20 @@ class MatrixStack:
         kind, entry, push = self.below[level]
         if entry is None:
             self._compute()
-            entry = _read_only(self._levels[level])
+            entry = self._copy(level)
             self.below[level] = kind, entry, push
         return entry
 
     def _read(self) -> np.ndarray:
         """Return the current matrix, after the queued operations."""
         self._compute()
-        self.known = matrix = _read_only(self._levels[len(self.below)])
+        self.known = matrix = self._copy(len(self.below))
         return matrix
+
+    def _copy(self, level: int) -> np.ndarray:
+        """Return a computed matrix, read-only."""
+        start = level * self._size
+        return np.ndarray((4, 4), self._dtype, bytes(self._bytes[start : start + self._size]))
 
     @property
     def current(self) -> np.ndarray:
@@ -324,9 +331,3 @@ def _packed(make: Callable[..., np.ndarray], planes: tuple[float, ...], single: 
     """Return the product with a projection as an operation of the queue; programs make the same one in every frame."""
     matrix = make(*planes, real=np.float32 if single else np.float64)
     return MATRIX.pack(MULTIPLY, *matrix.T.ravel().tolist())
-
-
-def _read_only(matrix: np.ndarray) -> np.ndarray:
-    copy = matrix.copy()
-    copy.flags.writeable = False
-    return copy

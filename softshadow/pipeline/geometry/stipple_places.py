@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow import matrices
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip import outcodes
@@ -28,7 +27,7 @@ def draws_stippled_lines(command: Draw) -> bool:
     return is_stippled(state.lines) and (command.mode in LINES or passes_stages(state))
 
 
-def begins_stipple_anew(command: Draw) -> bool:
+def begins_stipple_anew(command: Draw, model_view_projection: np.ndarray) -> bool:
     """Return whether the first line of a draw is surely drawn, so that its pattern begins anew there."""
     if command.mode not in LINES:
         return False
@@ -37,8 +36,9 @@ def begins_stipple_anew(command: Draw) -> bool:
     if len(ends) < 2:
         return False
     with np.errstate(all="ignore"):  # as in pipeline.draw
-        clip = to_clip(matrices.multiply(command.projection, command.modelview), ends)
-        return not outcodes(clip, command.state.depth.clamp, user_planes(command)).any()
+        clip = to_clip(model_view_projection, ends)
+        first, second = outcodes(clip, command.state.depth.clamp, user_planes(command)).tolist()
+    return not first | second
 
 
 def stipple_place_after(command: Draw, storage: Storage) -> int:

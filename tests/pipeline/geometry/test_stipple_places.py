@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow import gl
+from softshadow.matrices import multiply
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, stipple_place_after
@@ -53,7 +54,8 @@ def test_a_strip_that_begins_inside_does_not_ask():
             gl.glEnd()
         gl.glFinish()
         draws = [command for command in context._frame.commands if isinstance(command, Draw)]
-        assert [begins_stipple_anew(draw) for draw in draws] == [True, False]
+        products = [multiply(draw.projection, draw.modelview) for draw in draws]
+        assert [*map(begins_stipple_anew, draws, products)] == [True, False]
 
 
 def test_numbers_without_a_value_give_no_warning(recwarn):

@@ -1,0 +1,262 @@
+"""Draws whose arrays are made later are those whose arrays are made at once, in the same place among all commands."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.context import late_draws
+from softshadow.gl import pair_numbers
+from softshadow.pipeline.commands import Draw
+
+SIZE = 16, 16
+MODES = (gl.GL_POINTS, gl.GL_LINES, gl.GL_LINE_LOOP, gl.GL_TRIANGLES, gl.GL_TRIANGLE_FAN, gl.GL_QUADS, gl.GL_POLYGON)
+ATTRIBUTES = (("glColor3f", 3), ("glColor4f", 4), ("glNormal3f", 3), ("glTexCoord2f", 2))
+SWITCHES = (
+    gl.GL_LIGHTING, gl.GL_COLOR_MATERIAL, gl.GL_TEXTURE_2D, gl.GL_DEPTH_TEST, gl.GL_BLEND, gl.GL_SCISSOR_TEST,
+    gl.GL_LINE_STIPPLE, gl.GL_CULL_FACE, gl.GL_POLYGON_OFFSET_LINE, gl.GL_CLIP_PLANE0, gl.GL_LIGHT0,
+)  # fmt: skip
+BITMAP = bytes([0xAA, 0x55] * 4)
+CORNERS = np.array([(-1, -1, 0.5), (1, -1, 0.5), (0, 1, -0.5)], np.float32)
+
+
+def random_calls(seed):
+    """Return calls: pairs under matrices, attributes and states of their own, with other commands among them."""
+    random = Random(seed)
+
+    def number():
+        return random.choice((0.0, -0.0, 0.5, random.uniform(-1, 1)))
+
+    def attribute():
+        name, count = random.choice(ATTRIBUTES)
+        return (name, *(number() for _ in range(count)))
+
+    def change():
+        return random.choice(
+            (
+                ("glTranslatef", number(), number(), 0.0),
+                ("glRotatef", 90 * number(), 0.0, 0.0, 1.0),
+                ("glScalef", 0.5, 1.5, 1.0),
+                ("glLoadIdentity",),
+                ("glLoadMatrixf", np.diag((1.0, number(), 1.0, 1.0))),
+                ("glPushAttrib", gl.GL_ALL_ATTRIB_BITS),
+                ("glPopAttrib",),
+                ("glMaterialf", gl.GL_FRONT, gl.GL_SHININESS, 10 * abs(number())),
+                ("glSecondaryColor3f", number(), 0.0, 0.0),
+                ("glEnable", random.choice(SWITCHES)),
+                ("glEnable", gl.GL_COLOR_MATERIAL),
+                ("glMaterialfv", gl.GL_FRONT, gl.GL_AMBIENT_AND_DIFFUSE, (number(), number(), 0.5, 1.0)),
+                ("glDisable", random.choice(SWITCHES)),
+                ("glPolygonMode", random.choice((gl.GL_FRONT, gl.GL_BACK)), random.choice((gl.GL_LINE, gl.GL_FILL))),
+                ("glScissor", 2, 3, 9, 10),
+                ("glViewport", 0, 0, 12, 16),
+                ("glLineStipple", 1, 0x0F0F),
+                attribute(),
+                attribute(),
+            )
+        )
+
+    def command():
+        return random.choice(
+            (
+                ("glClear", gl.GL_DEPTH_BUFFER_BIT),
+                ("glDrawArrays", gl.GL_TRIANGLES, 0, 3),
+                ("glRectf", number(), number(), number(), number()),
+                ("glBitmap", 8, 4, 0.0, 0.0, 5.0, 0.0, BITMAP),
+                ("glTexSubImage2D", gl.GL_TEXTURE_2D, 0, 0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, BITMAP),
+                ("glReadPixels", 3, 4, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE),
+                ("glCallList", 1),
+                ("glBeginQuery", gl.GL_SAMPLES_PASSED, 1),
+                ("glEndQuery", gl.GL_SAMPLES_PASSED),
+                ("glMatrixMode", random.choice((gl.GL_MODELVIEW, gl.GL_PROJECTION, gl.GL_TEXTURE))),
+                ("glPushDebugGroup", gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "group"),
+                ("glPopDebugGroup",),
+                ("glFlush",),
+                ("glNewList", 2, gl.GL_COMPILE_AND_EXECUTE),
+                ("glEndList",),
+                ("gluSphere", 0.7, 24, 5),
+            )
+        )
+
+    calls = []
+    for _ in range(30):
+        calls += [change() for _ in range(random.choice((0, 1, 1, 2)))]
+        if random.random() < 0.15:
+            calls.append(command())
+        calls.append(("glBegin", random.choice(MODES)))
+        for _ in range(random.choice((0, 2, 3, 4, 4))):
+            if random.random() < 0.3:
+                calls.append(attribute())
+            calls.append(("glVertex3f", number(), number(), number()))
+        calls.append(("glEnd",))
+    return calls
+
+
+def prepare():
+    gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, CORNERS)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    texels = np.arange(48, dtype=np.uint8) * 5
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 4, 4, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, texels)
+    gl.glNewList(1, gl.GL_COMPILE)
+    gl.glRotatef(30, 0, 0, 1)
+    gl.glBegin(gl.GL_LINES)
+    gl.glVertex2f(-1, 0)
+    gl.glVertex2f(1, 0)
+    gl.glEnd()
+    gl.glEndList()
+
+
+def described(command):
+    if not isinstance(command, Draw):
+        return type(command), repr(command)
+    vertices = command.vertices
+    arrays: list[np.ndarray | None] = [vertices.position, vertices.color, vertices.normal, *vertices.texcoords]
+    arrays += [*vertices.materials.values(), vertices.edges, vertices.secondary, vertices.fog_coordinates]
+    arrays += [command.indices, command.modelview, command.projection, *command.texture_matrices]
+    values = [None if each is None else (each.dtype, each.shape, each.strides, each.tobytes()) for each in arrays]
+    others = command._replace(vertices=None, modelview=None, projection=None, texture_matrices=(), indices=None)
+    return repr(tuple(others)), values
+
+
+def drawn(calls, precision):
+    """Return what is recorded, read and left in the window by calls."""
+    with gl.create_context(*SIZE, precision=precision, raise_errors=False) as context:
+        prepare()
+        quadric, answers = gl.gluNewQuadric(), []
+        for name, *arguments in calls:
+            first = (quadric,) if name.startswith("glu") else ()
+            answers.append(np.asarray(getattr(gl, name)(*first, *arguments)).tolist())
+        frame, colors = context.frame, gl.glReadPixels(0, 0, *SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+        return answers, [*map(described, frame.commands)], frame.bytes, np.asarray(colors).tobytes()
+
+
+@pytest.mark.parametrize("precision", ["mesa", "exact"])
+@pytest.mark.parametrize("seed", range(24))
+def test_draws_that_are_late_change_no_bit(seed, precision, monkeypatch):
+    calls = random_calls(seed)
+    if seed % 2:
+        monkeypatch.setattr(late_draws, "MOST_NUMBERS", 40)
+    late = drawn(calls, precision)
+    monkeypatch.setattr(pair_numbers, "FEW", 0)
+    assert drawn(calls, precision) == late
+
+
+@pytest.fixture
+def context():
+    with gl.create_context(*SIZE) as context:
+        yield context
+
+
+def triangle(*, then=lambda: None):
+    """Draw the whole window by a triangle, and change a matrix, so that nothing can be joined to it."""
+    gl.glBegin(gl.GL_TRIANGLES)
+    for corner in ((-3.0, -3.0), (3.0, -3.0), (0.0, 6.0)):
+        gl.glVertex2f(*corner)
+    then()
+    gl.glEnd()
+    gl.glTranslatef(0.0, 0.0, 0.125)
+
+
+def number_of(context):
+    return len(context._late.draws)
+
+
+def test_draws_under_matrices_of_their_own_are_late(context):
+    for number in range(3):
+        triangle()
+        assert number_of(context) == number + 1
+    shifts = [draw.modelview[2, 3] for draw in context.frame.commands]
+    assert shifts == [0.0, 0.125, 0.25]
+    assert number_of(context) == 0
+
+
+def test_states_between_them_are_those_of_each_draw(context):
+    for on in (True, False):
+        (gl.glEnable if on else gl.glDisable)(gl.GL_DEPTH_TEST)
+        triangle()
+    assert number_of(context) == 2
+    assert [draw.state.depth.enabled for draw in context.frame.commands] == [True, False]
+
+
+def test_many_numbers_do_not_wait(context, monkeypatch):
+    monkeypatch.setattr(late_draws, "MOST_NUMBERS", 24)
+    triangle()
+    assert number_of(context) == 1
+    triangle()
+    assert number_of(context) == 0
+    assert len(context._frame.commands) == 2
+
+
+def test_a_large_pair_is_not_late(context):
+    gl.glBegin(gl.GL_POINTS)
+    for _ in range(pair_numbers.FEW + 1):
+        gl.glVertex2f(0.0, 0.0)
+    gl.glEnd()
+    gl.glTranslatef(1.0, 0.0, 0.0)
+    assert number_of(context) == 0
+    assert len(context._frame.commands) == 1
+
+
+def test_whoever_looks_inside_a_pair_sees_the_draws_before(context):
+    seen = []
+    triangle()
+    triangle(then=lambda: seen.append(context.storage.window.color.cells.copy()))
+    assert (seen[0][:, : SIZE[0], :3] == 255).all()
+
+
+def in_a_group(context):
+    gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "group")
+
+
+def with_another_offset_per_side(context):
+    gl.glPolygonMode(gl.GL_FRONT, gl.GL_LINE)
+    gl.glEnable(gl.GL_POLYGON_OFFSET_LINE)
+
+
+def with_a_secondary_colour(context):
+    gl.glSecondaryColor3f(1.0, 0.0, 0.0)
+
+
+def to_select(context):
+    gl.glSelectBuffer(16)
+    gl.glRenderMode(gl.GL_SELECT)
+
+
+def to_a_framebuffer(context):
+    name, texture = gl.glGenFramebuffers(1), gl.glGenTextures(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 4, 4, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+
+
+@pytest.mark.parametrize(
+    "begin", [in_a_group, with_another_offset_per_side, with_a_secondary_colour, to_select, to_a_framebuffer]
+)
+def test_what_someone_is_told_about_is_not_late(context, begin):
+    begin(context)
+    triangle()
+    assert number_of(context) == 0
+
+
+def test_joined_pairs_are_one_late_draw(context):
+    for x in range(3):
+        gl.glBegin(gl.GL_POINTS)
+        gl.glVertex2f(float(x), 0.0)
+        gl.glEnd()
+    gl.glLoadIdentity()
+    gl.glTranslatef(1.0, 0.0, 0.0)
+    assert number_of(context) == 1
+    (draw,) = context.frame.commands
+    assert draw.vertices.position[:, 0].tolist() == [0.0, 1.0, 2.0]
+
+
+def test_a_quadric_is_drawn_after_them(context):
+    triangle()
+    gl.gluSphere(gl.gluNewQuadric(), 0.5, 24, 5)
+    modes = [draw.mode for draw in context.frame.commands]
+    assert modes[0] == gl.GL_TRIANGLES
+    assert len(modes) > 3
