@@ -163,7 +163,7 @@ def glPopAttrib() -> None:
         fail(gl.GL_STACK_UNDERFLOW, "glPopAttrib", "there was no glPushAttrib before it")
         return
     if not context.ready:
-        context.flush()
+        context.separate()
     entry = context.attribute_stack.pop()
     mask, touched = entry[0], entry[1]
     if _undo_unused(context, mask):
@@ -245,7 +245,7 @@ def _restore(context: Context, bit: int, saved: SavedAttributes) -> None:
     now = context.state if bit & WITH_MATERIALS else context.drawn_state
     restored = with_group(bit, now, saved.state)
     if context.has_collected and (needs_calls(bit, now, restored) or _needs_more_calls(context, bit, saved)):
-        context.flush()
+        context.separate()
         now = context.state if bit & WITH_MATERIALS else context.drawn_state
         restored = with_group(bit, now, saved.state)
     if restored is not now:

@@ -21,7 +21,7 @@ def gluPerspective(fovy: float, aspect: float, zNear: float, zFar: float) -> Non
     packed = packed_perspective(fovy, aspect, zNear, zFar)
     if packed:
         if not context.ready:
-            context.flush()
+            context.separate()
         context.matrix_stack.multiply_packed(packed)
 
 

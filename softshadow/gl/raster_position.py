@@ -35,7 +35,7 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
     context = outside_begin("glRasterPos4f")
     if context is None:
         return
-    context.flush()
+    context.separate()
     context.update_current()
     context.touched |= gl.GL_CURRENT_BIT
     with np.errstate(all="ignore"):
@@ -124,7 +124,7 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
     context = outside_begin("glWindowPos3f")
     if context is None:
         return
-    context.flush()
+    context.separate()
     context.update_current()
     view = context.state.viewport
     near, far = F32(view.near), F32(view.far)

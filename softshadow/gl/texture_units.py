@@ -47,7 +47,7 @@ def glActiveTexture(texture: int) -> None:
             f"texture={token_name(texture)}: expected GL_TEXTURE0 to GL_TEXTURE{TEXTURE_UNITS - 1}",
         )
     if context.active_unit != unit:
-        context.flush()
+        context.separate()
         context.touched |= gl.GL_TEXTURE_BIT
     context.select_unit(unit)
     return None

@@ -88,7 +88,7 @@ def glLoadMatrixf(m: Any) -> None:
     if context is not None:
         matrix, stack = _matrix_argument(context, m), context.matrix_stack
         if matrix.tobytes() != stack.current.tobytes():
-            context.flush()
+            context.separate()
             stack.load(matrix)
 
 
@@ -99,7 +99,7 @@ def glMultMatrixf(m: Any) -> None:
     if context is not None:
         matrix = _matrix_argument(context, m)
         if matrix.tobytes() != context.identity.tobytes():  # Mesa skips the identity
-            context.flush()
+            context.separate()
             context.matrix_stack.multiply(matrix)
 
 
@@ -156,7 +156,7 @@ def glFrustum(left: float, right: float, bottom: float, top: float, zNear: float
         expected = "expected left ≠ right, bottom ≠ top, near ≠ far and both more than 0"
         fail(gl.GL_INVALID_VALUE, "glFrustum", f"zNear={zNear}, zFar={zFar}: {expected}")
     else:
-        context.flush()
+        context.separate()
         context.matrix_stack.frustum(left, right, bottom, top, zNear, zFar)
 
 
@@ -172,7 +172,7 @@ def glOrtho(left: float, right: float, bottom: float, top: float, zNear: float, 
             fail(gl.GL_INVALID_VALUE, "glOrtho", f"left={left}, right={right}: {expected}")
         else:
             if not context.ready:
-                context.flush()
+                context.separate()
             context.matrix_stack.ortho(left, right, bottom, top, zNear, zFar)
     except CONVERTING as error:
         raise refusal(glOrtho, error, left, right, bottom, top, zNear, zFar) from error

@@ -40,6 +40,11 @@ def random_calls(seed):
                 ("glScalef", 0.5, 1.5, 1.0),
                 ("glLoadIdentity",),
                 ("glLoadMatrixf", np.diag((1.0, number(), 1.0, 1.0))),
+                ("glMultMatrixf", np.diag((1.0, 1.0, number(), 1.0))),
+                ("glOrtho", -1.0, 1.0, -1.5, 1.0, -1.0, 1.0),
+                ("gluPerspective", 60.0, 1.0, 0.5, 5.0),
+                ("glActiveTexture", random.choice((gl.GL_TEXTURE0, gl.GL_TEXTURE1))),
+                ("glRasterPos2f", number(), number()),
                 ("glPushAttrib", gl.GL_ALL_ATTRIB_BITS),
                 ("glPopAttrib",),
                 ("glMaterialf", gl.GL_FRONT, gl.GL_SHININESS, 10 * abs(number())),
@@ -127,7 +132,7 @@ def drawn(calls, precision):
         prepare()
         quadric, answers = gl.gluNewQuadric(), []
         for name, *arguments in calls:
-            first = (quadric,) if name.startswith("glu") else ()
+            first = (quadric,) if name == "gluSphere" else ()
             answers.append(np.asarray(getattr(gl, name)(*first, *arguments)).tolist())
         frame, colors = context.frame, gl.glReadPixels(0, 0, *SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
         return answers, [*map(described, frame.commands)], frame.bytes, np.asarray(colors).tobytes()
