@@ -17,7 +17,7 @@ from softshadow.context.precision import LatestRows, Precision
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
-MOST_NUMBERS = 8192  # of positions
+MOST_NUMBERS = 2048  # of positions
 VERTICES, MODELVIEW, KIND = map(Draw._fields.index, ("vertices", "modelview", "modelview_kind"))
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
