@@ -83,8 +83,8 @@ class JoinedPairs:
         first = self.first
         if len(self._counts) == 1:
             return [first]
-        if isinstance(first, LateDraw) and len(self.parts) == 1 and first.mode in SEPARATE:
-            return [first]  # it has the vertices of all pairs
+        if isinstance(first, LateDraw) and len(self.parts) == 1:  # which has the vertices of all pairs
+            return [first if first.mode in SEPARATE else first._replace(counts=tuple(self._counts))]
         parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
         if isinstance(first, LateDraw):
             first = first.made(parts[0][1])

@@ -15,6 +15,7 @@ import numpy as np
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import LatestRows, Precision
 from softshadow.pipeline.commands import Draw, Origin, Vertices
+from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
@@ -44,7 +45,8 @@ class LateDraw(NamedTuple):
 
     `like` is a draw that differs in its vertices and its modelview matrix only. The vertices carry the attributes
     `columns`, which are among the changes of their primitive; the others have the values `color`, `normal` and
-    `texcoords`. It has neither debug groups nor an origin.
+    `texcoords`. It has neither debug groups nor an origin. Where it is of several strips, fans, loops or polygons,
+    `counts` are their numbers of vertices.
     """
 
     like: Draw
@@ -55,6 +57,7 @@ class LateDraw(NamedTuple):
     texcoords: ConstantTexcoords
     modelview: np.ndarray
     modelview_kind: int
+    counts: tuple[int, ...] = ()
 
     @property
     def mode(self) -> int:
@@ -63,7 +66,7 @@ class LateDraw(NamedTuple):
 
     @property
     def called_mode(self) -> int:
-        """The same: several primitives are not drawn as separate ones."""
+        """The same."""
         return self.like.mode
 
     @property
@@ -80,7 +83,8 @@ class LateDraw(NamedTuple):
         """Return the draw with arrays."""
         fields: list[Any] = list(self.like)
         fields[VERTICES], fields[MODELVIEW], fields[KIND] = vertices, self.modelview, self.modelview_kind
-        return Draw._make(fields)
+        made = Draw._make(fields)
+        return separated(made, self.counts) if self.counts else made
 
 
 class LateDraws:

@@ -259,6 +259,19 @@ def test_joined_pairs_are_one_late_draw(context):
     assert draw.vertices.position[:, 0].tolist() == [0.0, 1.0, 2.0]
 
 
+def test_joined_loops_are_one_late_draw_of_lines(context):
+    for number in range(2):
+        gl.glBegin(gl.GL_LINE_LOOP)
+        for x in range(3):
+            gl.glVertex2f(x / 4, number / 2)
+        gl.glEnd()
+    gl.glTranslatef(1.0, 0.0, 0.0)
+    assert number_of(context) == 1
+    (draw,) = context.frame.commands
+    assert (draw.mode, draw.pairs_mode) == (gl.GL_LINES, gl.GL_LINE_LOOP)
+    assert draw.indices.tolist() == [0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 3]
+
+
 def test_a_quadric_is_drawn_after_them(context):
     triangle()
     gl.gluSphere(gl.gluNewQuadric(), 0.5, 24, 5)
