@@ -20,7 +20,7 @@ from softshadow.context.current_values import CurrentValues, CurrentVertex
 from softshadow.context.display_list import DisplayList
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
-from softshadow.context.late_draws import NO_VERTICES, LateDraw, LateDraws
+from softshadow.context.late_draws import LateDraw, LateDraws
 from softshadow.context.line_pattern import LinePattern
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
@@ -30,13 +30,12 @@ from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
-from softshadow.framebuffer import DEFAULT, Storage, default_framebuffer
+from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
 from softshadow.pipeline.commands import NO_UNIFORMS, Command, Draw, Origin, Vertices, draws_like
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
-from softshadow.pipeline.mesa.driver_draws import offset_depends_on_mode
 from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
@@ -109,9 +108,8 @@ class Context(CurrentValues, Precision):
         self.origin: Origin | None = None  # what the primitives of the next draws were made from
         self.open_step: str | None = None  # title of a step that has begun
         self.primitive: Primitive | None = None  # between glBegin and glEnd
-        self._late = LateDraws(self)
-        self._late_like: Draw | None = None  # what the last one was like
         # immediate mode
+        self.late = LateDraws(self)
         self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self._add_late, self.objects)
         self.text = None
         self.arrays = ClientArrays()
@@ -166,7 +164,7 @@ class Context(CurrentValues, Precision):
         """
         if self.text is not None:
             self._draw_text()
-        if self._late.draws:
+        if self.late.draws:
             self._draw_late()
         self._waiting.carry_out()
         return self.objects
@@ -215,7 +213,7 @@ class Context(CurrentValues, Precision):
     def flush(self) -> None:
         """Draw what is collected, and what is late. Between glBegin and glEnd nothing is collected."""
         self.separate()
-        if self._late.draws:
+        if self.late.draws:
             self._draw_late()
 
     def separate(self) -> None:
@@ -254,12 +252,12 @@ class Context(CurrentValues, Precision):
         """Let a draw wait for its arrays."""
         if self.text is not None:
             self._draw_text()
-        if self._late.add(draw):
+        if self.late.add(draw):
             self._draw_late()
 
     def _draw_late(self) -> None:
         """Carry out and record the draws that wait for their arrays."""
-        for draws in self._late.take():
+        for draws in self.late.take():
             if len(draws) > 1:
                 self._carry_out_several(draws, self._waiting.add_like)
             else:
@@ -268,7 +266,7 @@ class Context(CurrentValues, Precision):
     def _carry_out(self, command: Command) -> None:
         if self.text is not None:
             self._draw_text()
-        if self._late.draws:
+        if self.late.draws:
             self._draw_late()
         if self.gate is not None and not self.gate(command):
             return
@@ -287,7 +285,7 @@ class Context(CurrentValues, Precision):
 
     def _carry_out_alike(self, commands: Sequence[Draw]) -> None:
         """Carry out and record draws that differ from the first one in vertices and indices only."""
-        if self._late.draws:
+        if self.late.draws:
             self._draw_late()
         self._carry_out_several(commands, self._waiting.add_alike)
 
@@ -368,7 +366,7 @@ class Context(CurrentValues, Precision):
     def draw_command(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None) -> Draw:
         """Return a draw under the current state."""
         state = self.state_groups.drawn()
-        if not self._has_followed(state):
+        if not self.has_followed(state):
             state = with_kept_materials(self.state, vertices.color)
         program = state.program
         modelview, modelview_kind = self.modelview_stack.drawn()
@@ -393,30 +391,10 @@ class Context(CurrentValues, Precision):
             command = command._replace(uniforms=uniforms, program_name=name, label="/".join(self.labels))
         return command
 
-    def _has_followed(self, state: State) -> bool:
+    def has_followed(self, state: State) -> bool:
         """Return whether materials that follow the colour, if any do, have followed the current one."""
         followed = self.state_groups.followed
         return not state.lighting.color_material or (followed is not None and followed[2] is self.current.color)
-
-    def late_like(self, mode: int) -> Draw | None:
-        """Return a draw under the current state for `LateDraw`, or None if its arrays must be made at once.
-
-        Draws are not late where they may fail, where someone is told about them, or where they depend on what a
-        later call may change.
-        """
-        state = self.state_groups.drawn()
-        if self.labels or self.origin is not None or self.gate is not None or not self._has_followed(state):
-            return None
-        like, projection = self._late_like, self.projection_stack.current
-        matrices = self._texture_matrices or self.texture_matrices()
-        if (
-            like is None or like.state is not state or like.mode != mode or like.projection is not projection
-            or like.texture_matrices is not matrices
-        ):  # fmt: skip
-            if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
-                return None
-            like = self._late_like = self.draw_command(mode, NO_VERTICES)
-        return like
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""

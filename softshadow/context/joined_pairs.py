@@ -29,16 +29,17 @@ class JoinedPairs:
 
     Attributes
     ----------
-    first : Draw or LateDraw the command of the first one, with the state of all
+    like : Draw              a draw with the state of all
     n_vertices : int         of all pairs
     parts : list             the debug groups, the origin and the vertices of one or more pairs
     """
 
-    __slots__ = ("_can_be_separated", "_counts", "first", "n_vertices", "parts")
+    __slots__ = ("_can_be_separated", "_counts", "_first", "like", "n_vertices", "parts")
 
     def __init__(self, first: Draw | LateDraw, n_vertices: int) -> None:
-        self.first, self.n_vertices = first, n_vertices
-        self.parts: list[tuple[Told, Vertices | LateVertices]] = [((first.label, first.origin), first.vertices)]
+        self._first, self.n_vertices = first, n_vertices
+        self.like = like = first.like if isinstance(first, LateDraw) else first
+        self.parts: list[tuple[Told, Vertices | LateVertices]] = [((like.label, like.origin), first.vertices)]
         self._counts = [n_vertices]  # of each pair
         self._can_be_separated: bool | None = None  # not known before the second pair
 
@@ -70,21 +71,20 @@ class JoinedPairs:
     @property
     def takes_more(self) -> bool:
         """Whether another pair can be joined: only after complete primitives."""
-        corners = SEPARATE.get(self.first.mode)
+        corners = SEPARATE.get(self.like.mode)
         if corners is not None:
             return self.n_vertices % corners == 0
         if self._can_be_separated is None:
-            first = self.first
-            self._can_be_separated = can_be_separated(first.like if isinstance(first, LateDraw) else first)
+            self._can_be_separated = can_be_separated(self.like)
         return self._can_be_separated
 
     def commands(self) -> Sequence[Draw | LateDraw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
-        first = self.first
+        first = self._first
         if len(self._counts) == 1:
             return [first]
         if isinstance(first, LateDraw) and len(self.parts) == 1:  # which has the vertices of all pairs
-            return [first if first.mode in SEPARATE else first._replace(counts=tuple(self._counts))]
+            return [first if self.like.mode in SEPARATE else first._replace(counts=tuple(self._counts))]
         parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
         if isinstance(first, LateDraw):
             first = first.made(parts[0][1])

@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import LatestRows, Precision
-from softshadow.pipeline.commands import Draw, Origin, Vertices
+from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
@@ -59,26 +59,6 @@ class LateDraw(NamedTuple):
     modelview_kind: int
     counts: tuple[int, ...] = ()
 
-    @property
-    def mode(self) -> int:
-        """The mode of the pairs."""
-        return self.like.mode
-
-    @property
-    def called_mode(self) -> int:
-        """The same."""
-        return self.like.mode
-
-    @property
-    def label(self) -> str:
-        """The debug groups: none."""
-        return self.like.label
-
-    @property
-    def origin(self) -> Origin | None:
-        """What the primitives were made from: nobody has told."""
-        return self.like.origin
-
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
         fields: list[Any] = list(self.like)
@@ -93,6 +73,7 @@ class LateDraws:
     Attributes
     ----------
     draws : list             these, in their order
+    like : Draw or None      what the latest one was like
 
     Parameters
     ----------
@@ -102,6 +83,7 @@ class LateDraws:
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
         self.draws: list[LateDraw] = []
+        self.like: Draw | None = None
         self._n_numbers = 0
 
     def add(self, draw: LateDraw) -> bool:

@@ -74,30 +74,28 @@ class VertexBuffer:
         """Return how many vertices fit behind the submitted ones, if their attributes have so many components."""
         return (BYTES - self.used_bytes) // (4 * sum(sizes.values()))
 
-    def draw(self, command: Draw | LateDraw) -> None:
+    def draw(self, command: Draw) -> None:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
-        driver_draw = self.driver_draw
-        mode = command.called_mode
-        if mode != driver_draw.mode:
-            driver_draw = self.driver_draw = DriverDraw(mode)
-        if driver_draw.is_lost:
-            return
-        if isinstance(command, LateDraw):
-            self._add_late(command)
-        else:
+        driver_draw = self._part_of(command.called_mode)
+        if not driver_draw.is_lost:
             self._carry_out(driver_draw.part(command, self._offset_mode_of))
+
+    def _part_of(self, mode: int) -> DriverDraw:
+        """Return the driver's draw that a draw of a mode belongs to."""
+        if mode != self.driver_draw.mode:
+            self.driver_draw = DriverDraw(mode)
+        return self.driver_draw
 
     def draw_pairs(self, commands: Sequence[Draw]) -> None:
         """Draw glBegin ... glEnd pairs of one mode, none of which are joined, that differ in their vertices only."""
         mode, counts = commands[0].mode, [len(command.vertices.position) for command in commands]
         self.n_vertices += sum(counts)
         self.draw_joined_pairs()
-        if mode != self.driver_draw.mode:
-            self.driver_draw = DriverDraw(mode)
+        driver_draw = self._part_of(mode)
         if offset_depends_on_mode(commands[0].state):
             for command in commands:
                 self.draw(command)
-        elif not self.driver_draw.is_lost:
+        elif not driver_draw.is_lost:
             self._carry_out_alike(commands)
         if self.pairs.add_several(mode, counts) >= MAX_PAIRS:
             self.submit()
@@ -108,7 +106,7 @@ class VertexBuffer:
     def can_join(self, mode: int) -> bool:
         """Return whether vertices of a mode can be joined to the pairs that are not drawn yet."""
         joined = self.joined_pairs
-        return joined is not None and joined.first.mode == mode and joined.takes_more
+        return joined is not None and joined.like.mode == mode and joined.takes_more
 
     def begin_joined_pairs(self, first: Draw | LateDraw, n_vertices: int) -> None:
         """Draw the joined pairs, and begin new ones with a draw of so many vertices."""
@@ -134,7 +132,10 @@ class VertexBuffer:
         joined, self.joined_pairs, self.paused = self.joined_pairs, None, None
         if joined is not None:
             for command in joined.commands():
-                self.draw(command)
+                if not isinstance(command, LateDraw):
+                    self.draw(command)
+                elif not self._part_of(command.like.mode).is_lost:
+                    self._add_late(command)
 
     def submit(self) -> None:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from softshadow.context import Context, Primitive
 from softshadow.context.joined_pairs import Told
-from softshadow.context.late_draws import LateDraw
+from softshadow.context.late_draws import NO_VERTICES, LateDraw
+from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import carried_of, kept_constants
 from softshadow.gl.vertex_format import vertices_of
-from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.mesa.driver_draws import offset_depends_on_mode
 
 FEW = 64  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
 
@@ -53,7 +55,7 @@ def _late_draw(context: Context, mode: int, primitive: Primitive) -> LateDraw | 
     current, carried = context.current, carried_of(tuple(context.vertex_buffer.sizes))
     if primitive.arrays or primitive.materials or carried.optional or not current.is_plain:
         return None
-    like = context.late_like(mode)
+    like = _like(context, mode)
     if like is None:
         return None
     for name in carried.columns:
@@ -68,6 +70,26 @@ def _late_draw(context: Context, mode: int, primitive: Primitive) -> LateDraw | 
         kept_constants(context).find_texcoords(context, carried.units),
         *context.modelview_stack.drawn(),
     )
+
+
+def _like(context: Context, mode: int) -> Draw | None:
+    """Return a draw under the current state for `LateDraw`; None where draws are not late.
+
+    They are not where they may fail, where someone is told about them, or where they depend on what a later call may
+    change.
+    """
+    state = context.drawn_state
+    if context.labels or context.origin is not None or context.gate is not None or not context.has_followed(state):
+        return None
+    like, projection, matrices = context.late.like, context.projection_stack.current, context.texture_matrices()
+    if (
+        like is None or like.state is not state or like.mode != mode or like.projection is not projection
+        or like.texture_matrices is not matrices
+    ):  # fmt: skip
+        if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
+            return None
+        like = context.late.like = context.draw_command(mode, NO_VERTICES)
+    return like
 
 
 def resume(context: Context, mode: int) -> bool:

@@ -166,7 +166,7 @@ def triangle(*, then=lambda: None):
 
 
 def number_of(context):
-    return len(context._late.draws)
+    return len(context.late.draws)
 
 
 def test_draws_under_matrices_of_their_own_are_late(context):
