@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -80,7 +81,7 @@ class CacheEntry:
     ties: list[int]
     hits: int = 0
 
-    @property
+    @cached_property
     def bytes(self) -> int:
         """The size of the arrays in bytes."""
         arrays = (self.depth, self.stencil, *self.spans, *self.inputs.triangles)

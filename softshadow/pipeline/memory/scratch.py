@@ -7,21 +7,22 @@ The pages of a large new array come from the operating system one by one, when t
 import math
 import sys
 import threading
+from collections import deque
 
 import numpy as np
 
 SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
 LARGEST_NUMBER = 16  # bytes of any dtype here
 POOLED = 128 << 20  # bytes in the pool of each thread that draws
-_unused = [np.empty(0, np.uint8)]
-UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the list, and this call
+_unused = deque([np.empty(0, np.uint8)])
+UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the deque, and this call
 
 
 class _Blocks(threading.local):
     """The memory blocks of one thread by size, a power of two."""
 
     def __init__(self) -> None:
-        self.of_size: dict[int, list[np.ndarray]] = {}
+        self.of_size: dict[int, deque[np.ndarray]] = {}
 
 
 _thread_blocks = _Blocks()
@@ -30,7 +31,8 @@ _thread_blocks = _Blocks()
 def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
     """Return an uninitialised array, like ``np.empty``, if possible in pooled memory.
 
-    A block is reused once its last reference is gone.
+    A block is reused once its last reference is gone. Blocks that are found in use go to the end: caches use some for
+    long.
     """
     numbers = math.prod(shape) if isinstance(shape, tuple) else shape
     if numbers * LARGEST_NUMBER < SMALLEST:
@@ -40,13 +42,17 @@ def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndar
     if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory
-    blocks = _thread_blocks.of_size.setdefault(whole, [])
-    for n in range(len(blocks)):  # no variable for the block: it would be one more reference
-        if sys.getrefcount(blocks[n]) == UNUSED_REFERENCES:
-            return np.ndarray(shape, kind, blocks[n])
+    of_size = _thread_blocks.of_size
+    blocks = of_size.get(whole)
+    if blocks is None:
+        blocks = of_size[whole] = deque()
+    for _ in range(len(blocks)):
+        if sys.getrefcount(blocks[0]) == UNUSED_REFERENCES:  # no variable for it: that would be one more reference
+            return np.ndarray(shape, kind, blocks[0])
+        blocks.rotate(-1)
     _make_room(whole)
-    blocks.append(np.empty(whole, np.uint8))
-    return np.ndarray(shape, kind, blocks[-1])
+    blocks.appendleft(np.empty(whole, np.uint8))
+    return np.ndarray(shape, kind, blocks[0])
 
 
 def _make_room(size: int) -> None:

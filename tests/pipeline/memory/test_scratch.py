@@ -3,9 +3,11 @@
 import threading
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from softshadow.pipeline.memory import scratch as module
 from softshadow.pipeline.memory.scratch import POOLED, SMALLEST, scratch
 
 LARGE = SMALLEST // 4
@@ -15,7 +17,12 @@ def address(array):
     return array.__array_interface__["data"][0]
 
 
-def test_memory_is_reused_once_nothing_refers_to_it():
+@pytest.fixture
+def empty_pool(monkeypatch):
+    monkeypatch.setattr(module, "_thread_blocks", module._Blocks())
+
+
+def test_memory_is_reused_once_nothing_refers_to_it(empty_pool):
     first = scratch((2, LARGE), np.float32)
     where = address(first)
     part = first[1, 5:]
@@ -24,6 +31,16 @@ def test_memory_is_reused_once_nothing_refers_to_it():
     assert not np.shares_memory(other, part)  # a view keeps the block in use
     del part
     assert address(scratch((2, LARGE), np.int32)) == where
+
+
+def test_memory_is_reused_beside_arrays_that_stay_in_use(empty_pool):
+    kept = [scratch(LARGE, np.int32) for _ in range(5)]
+    where = address(scratch(LARGE, np.int32))
+    assert where not in map(address, kept)
+    assert {address(scratch(LARGE, np.int32)) for _ in range(10)} == {where}
+    released = address(kept.pop(2))
+    both = scratch(LARGE, np.int32), scratch(LARGE, np.int32)
+    assert set(map(address, both)) == {where, released}
 
 
 def test_a_scratch_array_has_the_requested_shape_and_type():
