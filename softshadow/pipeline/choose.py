@@ -54,6 +54,8 @@ TRIANGLES_OF_QUAD = 2
 SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
 # fragments of a triangle, and for each pixel of their region: such triangles have long spans, of which few are hidden
 LARGE_TRIANGLE, FEW_LAYERS = 80, 1.3
+# the same without textures, where shading a hidden span costs less than to find out that it is hidden
+LARGE_PLAIN_TRIANGLE, FEW_PLAIN_LAYERS = 250, 3.0
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
 LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels of the fixed function are to be compiled
@@ -206,7 +208,7 @@ def choose_forward(
     n_triangles = len(geometry.triangles.ids)
     is_small = fragments <= FEW_FRAGMENTS and n_triangles < MANY_TRIANGLES
     is_small = is_small and short_cuts.get() != "always"  # which wants its fill to be compiled
-    hides_little = storage is not None and _hides_little(n_triangles, fragments, region)
+    hides_little = storage is not None and _hides_little(geometry, fragments, region)
     must_test_in_order = plan.in_order or plan.counting
     if not plan.forward or not (must_test_in_order or is_small or (hides_little and short_cuts.get() is True)):
         return None
@@ -224,11 +226,15 @@ def choose_forward(
     return lambda: draw_forward(numbers, state, target, geometry, region, fragments)
 
 
-def _hides_little(n_triangles: int, fragments: int, region: Region) -> bool:
+def _hides_little(geometry: Geometry, fragments: int, region: Region) -> bool:
     """Return whether finding the visible spans of an opaque draw would cost more than it saves."""
     layers = fragments / ((region.right - region.left) * (region.end_row - region.first_row) or 1)
-    is_coarse = fragments >= LARGE_TRIANGLE * n_triangles and layers < FEW_LAYERS
-    return n_triangles <= TRIANGLES_OF_QUAD or layers < SPARSE or is_coarse
+    n_triangles, is_textured = len(geometry.triangles.ids), bool(geometry.program.units)
+    if n_triangles <= TRIANGLES_OF_QUAD or layers < SPARSE:
+        return True
+    if layers < FEW_LAYERS and fragments >= LARGE_TRIANGLE * n_triangles:
+        return True
+    return not is_textured and layers < FEW_PLAIN_LAYERS and fragments >= LARGE_PLAIN_TRIANGLE * n_triangles
 
 
 def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> SegmentState | None:

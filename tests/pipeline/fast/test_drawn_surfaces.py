@@ -276,8 +276,8 @@ def light_spheres(surfaces: int) -> None:
         for index in range(surfaces):
             on.glPushMatrix()
             on.glTranslatef(0.4 * index - 0.3, 0.1, 0.1 * index)
-            on.glScalef(0.8, 0.8, 0.8)  # small draws go triangle by triangle
-            on.gluSphere(on.gluNewQuadric(), 1.0, 9, 7)
+            on.glScalef(0.8, 0.8, 0.8)  # small draws, and those of large triangles, go triangle by triangle
+            on.gluSphere(on.gluNewQuadric(), 1.0, 18, 14)
             on.glPopMatrix()
     for cap in (on.GL_BLEND, on.GL_LIGHTING):
         on.glDisable(cap)

@@ -128,10 +128,15 @@ def test_a_large_quad_goes_forward_unless_it_was_drawn_before(monkeypatch):
         assert same_window(window, three_quads()[0])
 
 
-def layers_of_rectangles(columns, rows, n_layers):
+def layers_of_rectangles(columns, rows, n_layers, textured):
     """Return a window that layers of rectangles cover, those behind last, and the fill of their only draw."""
     context = gl.create_context(64, 48)
     gl.glEnable(gl.GL_DEPTH_TEST)
+    if textured:
+        texels = np.arange(4 * 4 * 4, dtype=np.uint8).reshape(4, 4, 4) * 4
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 4, 4, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glEnable(gl.GL_TEXTURE_2D)
     with explain_paths() as paths:
         gl.glBegin(gl.GL_QUADS)
         for layer in range(n_layers):
@@ -139,6 +144,7 @@ def layers_of_rectangles(columns, rows, n_layers):
                 for i in range(columns):
                     gl.glColor3f(i / columns, j / rows, layer / n_layers)
                     for x, y in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        gl.glTexCoord2f(x, y)
                         gl.glVertex3f(2 * x / columns - 1, 2 * y / rows - 1, 0.1 * layer + 0.3 * x / columns)
         gl.glEnd()
         gl.glFinish()
@@ -147,15 +153,23 @@ def layers_of_rectangles(columns, rows, n_layers):
 
 
 @pytest.mark.parametrize(
-    ("columns", "rows", "n_layers", "goes_forward"),
-    [(4, 2, 1, True), (4, 2, 2, False), (20, 15, 1, False)],
+    ("rectangles", "goes_forward"),
+    [
+        ((4, 2, 1, False), True),
+        ((4, 2, 2, False), False),  # neither large nor single
+        ((2, 2, 2, False), True),
+        ((2, 2, 4, False), False),  # too many layers
+        ((20, 15, 1, False), False),  # too small
+        ((2, 2, 1, True), True),
+        ((2, 2, 2, True), False),  # a texture would be looked up for what is hidden
+    ],
 )
-def test_large_triangles_that_hide_little_go_forward(monkeypatch, columns, rows, n_layers, goes_forward):
+def test_large_triangles_that_hide_little_go_forward(monkeypatch, rectangles, goes_forward):
     monkeypatch.setattr(choose, "FEW_FRAGMENTS", -1)
-    window, fill = layers_of_rectangles(columns, rows, n_layers)
+    window, fill = layers_of_rectangles(*rectangles)
     assert (fill == "span by span") == goes_forward
     with use_short_cuts(False):
-        assert same_window(window, layers_of_rectangles(columns, rows, n_layers)[0])
+        assert same_window(window, layers_of_rectangles(*rectangles)[0])
 
 
 @pytest.mark.interpreted
