@@ -30,7 +30,7 @@ from softshadow.pipeline.geometry.triangle_setup import (
     snapped_vertices,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
-from softshadow.pipeline.mesa.polygon_rules import offset_is_on, passes_stages
+from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes, order_for_setup, order_pieces
 from softshadow.pipeline.records import Discards, Geometry
 from softshadow.programs import Program, Varyings, VertexInputs
@@ -123,9 +123,11 @@ def triangles_with_outputs(
         return points_and_lines_geometry(geometry, clipped, command, target, vertex_sizes)
     if not with_stages:
         return filled_geometry(geometry, clipped, command, target, cull)
-    begins = begins_stipple(command.mode, len(provoking))[clipped.source]
-    cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
-    begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
+    begins = None
+    if is_stippled(state.lines):
+        cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
+        first = begins_stipple(command.mode, len(provoking))[clipped.source]
+        begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, first)
     return outlined_geometry(geometry, clipped, command, target, cull, begins, vertex_sizes)
 
 

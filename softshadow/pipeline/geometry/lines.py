@@ -12,7 +12,7 @@ from softshadow.jit import kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
 from softshadow.pipeline.geometry.facing import REACH
-from softshadow.pipeline.geometry.triangle_setup import line_gradient, line_plane, snap_away
+from softshadow.pipeline.geometry.triangle_setup import empty_setup, line_gradient, line_plane, snap_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
 
 LINES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)
@@ -113,23 +113,13 @@ def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: 
     width : in pixels, see `whole_width`
     """
     across = whole_width(width) << SUBPIXEL_BITS
-    most_triangles = 2 * len(lines)
-    setup = Setup(
-        np.empty((most_triangles, 6), np.int32),
-        np.full((most_triangles, 3), NO_VERTEX, np.int32),
-        np.zeros((most_triangles, 4), window.dtype),
-        np.ones(most_triangles, np.uint8),
-        np.empty(most_triangles, np.int32),
-    )
-    scratch = np.empty(8, np.int64)
-    n_triangles = line_triangles(
-        window, lines, ids, across, setup.corners, setup.vertices, setup.depth, setup.ids, scratch
-    )
-    return Setup(*(array[:n_triangles] for array in setup))
+    setup = empty_setup(2 * len(lines), window.dtype)
+    n_triangles = line_triangles(window, lines, ids, across, *setup, np.empty(8, np.int64))
+    return Setup(*[array[:n_triangles] for array in setup])
 
 
 @kernel
-def line_triangles(window, lines, ids, across, corners, vertices, depth, triangle_ids, quad):
+def line_triangles(window, lines, ids, across, corners, vertices, depth, front, triangle_ids, quad):
     """Fill the arrays of `Setup`; return the number of triangles. `quad` (8,) is scratch."""
     t = 0
     for n in range(lines.shape[0]):
@@ -151,9 +141,9 @@ def line_triangles(window, lines, ids, across, corners, vertices, depth, triangl
             corners[t, 0], corners[t, 1] = quad[0], quad[1]
             for k in range(4):
                 corners[t, 2 + k] = quad[2 + 2 * half + k]
-            vertices[t, 0], vertices[t, 1] = a, b
+            vertices[t, 0], vertices[t, 1], vertices[t, 2] = a, b, NO_VERTEX
             depth[t, 0], depth[t, 1], depth[t, 2] = z
-            triangle_ids[t] = ids[n]
+            depth[t, 3], front[t], triangle_ids[t] = ZERO, 1, ids[n]
             t += 1
     return t
 

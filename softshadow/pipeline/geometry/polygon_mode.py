@@ -11,14 +11,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.image import Image
+from softshadow.jit import inlined, kernel, read_only
+from softshadow.pipeline.constants import ZERO
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
 from softshadow.pipeline.geometry.line_stipple import places_of
 from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_of
+from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
 from softshadow.state import Cull, Polygon, State
-
-EDGES_IN_ORDER = ((2, 0), (0, 1), (1, 2))  # of a triangle, as they are drawn
-STARTS = [start for start, _ in EDGES_IN_ORDER]
 
 
 class Outlined(NamedTuple):
@@ -73,73 +73,105 @@ def outline(
     offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
     no_edges : whether no vertex begins an edge; then Mesa culls the triangles that are not filled
     """
-    corners = window[triangles]
-    det = _determinant(corners)
-    counter_clockwise_is_front = (state.cull.front_face == gl.GL_CCW) == flipped
-    negative = det < 0
-    front = np.where(det == 0, False, negative == counter_clockwise_is_front)
-    modes = effective_modes(state)
-    # a triangle without area is culled as a back face, but drawn in the mode of clockwise ones
-    mode = np.where(negative == counter_clockwise_is_front, *modes)
+    n, columns = len(triangles), values.shape[1]
+    corners, corner_values = scratch((n, 3, 4), window.dtype), scratch((3 * n, columns), values.dtype)
+    det, front, mode = np.empty(n, window.dtype), np.empty(n, bool), np.empty(n, np.int32)
+    write_corners(
+        window, read_only(values), read_only(values if back is None else back), flat, read_only(triangles), provoking,
+        (state.cull.front_face == gl.GL_CCW) == flipped, *effective_modes(state), corners, corner_values, det, front,
+        mode,
+    )  # fmt: skip
     polygon = state.polygon
-    has_edges = mode == gl.GL_FILL if no_edges else np.ones(len(mode), bool)
     if offset_is_on(polygon):
-        decisive = np.flatnonzero(_not_culled(front, state.cull) & has_edges)[:1]
-        if offset_mode == 0 and len(decisive):
-            offset_mode = int(mode[decisive[0]])
+        decisive = first_drawn(front, mode, culling(state.cull)[0], no_edges)
+        if offset_mode == 0 and decisive >= 0:
+            offset_mode = int(mode[decisive])
         offset = _mode_offset(polygon, offset_mode or gl.GL_FILL)
         corners[:, :, 2] = _offset_depth(corners, det, offset, depth, slope, unit, flipped)
-    corner_values, provoking_values = values[triangles], values[provoking]
-    if back is not None:
-        back_lit = (det != 0) & ~front  # a triangle without area is lit as a front face
-        corner_values[back_lit], provoking_values[back_lit] = back[triangles[back_lit]], back[provoking[back_lit]]
-    corner_values[:, :, flat] = provoking_values[:, None, flat]
-    visible = _not_culled(front, cull) & has_edges
-    first = np.arange(len(triangles), dtype=np.int32) * 3
-    filled = first[visible & (mode == gl.GL_FILL)]
-    as_lines, as_points = visible & (mode == gl.GL_LINE), visible & (mode == gl.GL_POINT)
-    drawn_lines = edges[as_lines][:, STARTS] != 0
-    # a filled triangle begins the line stipple anew, and so does each point, but not a triangle without drawn points
-    restarting = np.where(as_lines, begins, ~as_points | (edges != 0).any(axis=1))
-    return Outlined(
-        np.ascontiguousarray(corners.reshape(-1, 4)),
-        np.ascontiguousarray(corner_values.reshape(-1, values.shape[1])),
-        filled[:, None] + np.arange(3, dtype=np.int32),
-        _edge_lines(first[as_lines], drawn_lines),
-        (first[as_points][:, None] + np.arange(3, dtype=np.int32))[edges[as_points] != 0],
-        front,
-        offset_mode,
-        *_places(restarting & visible, as_lines, drawn_lines),
+    filled, points = np.empty((n, 3), np.int32), np.empty(3 * n, np.int32)
+    lines, begins_line = np.empty((3 * n, 2), np.int32), np.empty(3 * n, bool)
+    n_filled, n_lines, n_points, ends_stipple = list_primitives(
+        front, mode, culling(cull)[0], no_edges, edges, begins, filled, lines, begins_line, points
     )
+    return Outlined(
+        corners.reshape(-1, 4), corner_values, filled[:n_filled], lines[:n_lines], points[:n_points], front,
+        offset_mode, places_of(begins_line[:n_lines]), ends_stipple,
+    )  # fmt: skip
 
 
-def _determinant(corners: np.ndarray) -> np.ndarray:
-    """Return twice the area (T,) of triangles (T, 3, 4), from the unsnapped positions."""
-    e, f = corners[:, 0] - corners[:, 2], corners[:, 1] - corners[:, 2]
-    return e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
+@kernel
+def write_corners(
+    window, values, back, flat, triangles, provoking, negative_is_front, front_mode, back_mode, corners, corner_values,
+    det, front, mode,
+):  # fmt: skip
+    """Write the corners (T, 3, 4) of triangles and their values, twice their area, their facing and polygon mode.
 
-
-def _not_culled(front: np.ndarray, cull: Cull) -> np.ndarray:
-    culled, _ = culling(cull)
-    return np.where(front, not culled & CULL_FRONT, not culled & CULL_BACK)
-
-
-def _edge_lines(first: np.ndarray, drawn: np.ndarray) -> np.ndarray:
-    """Return the lines (B, 2) of triangles with vertices first, first + 1, first + 2."""
-    lines = first[:, None, None] + np.array(EDGES_IN_ORDER, np.int32)
-    return np.ascontiguousarray(lines[drawn], np.int32)
-
-
-def _places(begins: np.ndarray, as_lines: np.ndarray, drawn: np.ndarray) -> tuple[np.ndarray, bool]:
-    """Return the places (B,) of lines in the line stipple, and whether it begins anew after the last one.
-
-    `begins` (T,) are the triangles that begin it, filled ones and those of points among them; `drawn` (n, 3) the edges
-    of the triangles drawn as lines.
+    `det` is that of the unsnapped positions. A triangle without area counts as a back face for culling, but it is lit
+    as a front face, and drawn in the mode of clockwise ones.
     """
-    number = np.cumsum(begins)  # of beginnings up to each triangle
-    of_line = np.repeat(number[as_lines], drawn.sum(axis=1))
-    last = int(of_line[-1]) if len(of_line) else 0
-    return places_of(np.diff(of_line, prepend=0) > 0), bool(len(number) and number[-1] > last)
+    for t in range(triangles.shape[0]):
+        for k in range(3):
+            for c in range(4):
+                corners[t, k, c] = window[triangles[t, k], c]
+        e_x, e_y = corners[t, 0, 0] - corners[t, 2, 0], corners[t, 0, 1] - corners[t, 2, 1]
+        f_x, f_y = corners[t, 1, 0] - corners[t, 2, 0], corners[t, 1, 1] - corners[t, 2, 1]
+        area = e_x * f_y - e_y * f_x
+        det[t], turns_to_front = area, (area < ZERO) == negative_is_front
+        front[t], mode[t] = turns_to_front and area != ZERO, front_mode if turns_to_front else back_mode
+        lit = back if area != ZERO and not front[t] else values
+        for k in range(3):
+            for c in range(values.shape[1]):
+                corner_values[3 * t + k, c] = lit[provoking[t] if flat[c] else triangles[t, k], c]
+
+
+@inlined
+def is_drawn(is_front, mode, culled, no_edges):
+    """Return whether a triangle is drawn in its mode; `culled` are the faces to leave out."""
+    return not culled & (CULL_FRONT if is_front else CULL_BACK) and (mode == gl.GL_FILL or not no_edges)
+
+
+@kernel
+def first_drawn(front, mode, culled, no_edges):
+    """Return the first triangle that is drawn, -1 if none is."""
+    for t in range(front.shape[0]):
+        if is_drawn(front[t], mode[t], culled, no_edges):
+            return t
+    return -1
+
+
+@kernel
+def list_primitives(front, mode, culled, no_edges, edges, begins, filled, lines, begins_line, points):
+    """List the triangles (A, 3), lines (B, 2) and points (C,) to draw; return A, B, C, and `Outlined.ends_stipple`.
+
+    `begins_line` (B,): lines at which the line stipple begins anew. A filled triangle begins it, and so does one with
+    drawn points; one drawn as lines where `begins` says so.
+    """
+    n_filled = n_lines = n_points = 0
+    begins_next = False
+    for t in range(front.shape[0]):
+        if not is_drawn(front[t], mode[t], culled, no_edges):
+            continue
+        if mode[t] == gl.GL_LINE:
+            begins_next = begins_next or begins[t]
+        else:
+            begins_next = begins_next or mode[t] != gl.GL_POINT or edges[t, 0] or edges[t, 1] or edges[t, 2]
+        if mode[t] == gl.GL_FILL:
+            for k in range(3):
+                filled[n_filled, k] = 3 * t + k
+            n_filled += 1
+            continue
+        for k in range(3):
+            if mode[t] == gl.GL_POINT:
+                if edges[t, k]:
+                    points[n_points] = 3 * t + k
+                    n_points += 1
+                continue
+            start = (k + 2) % 3  # the edge between the last corner and the first one is drawn first
+            if edges[t, start]:
+                lines[n_lines, 0], lines[n_lines, 1] = 3 * t + start, 3 * t + k
+                begins_line[n_lines], begins_next = begins_next, False
+                n_lines += 1
+    return n_filled, n_lines, n_points, begins_next
 
 
 def _mode_offset(polygon: Polygon, mode: int) -> Polygon:
