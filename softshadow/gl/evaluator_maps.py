@@ -90,7 +90,7 @@ def _refused(operation: str, n: int, target: int, sides: tuple[tuple[float, floa
 
 def _define(target: int, points: np.ndarray, domain: tuple[float, ...]) -> None:
     context = current()
-    context.flush()
+    context.separate()
     context.touched |= gl.GL_EVAL_BIT
     points.setflags(write=False)
     context.maps[int(target)] = Map(points, tuple(float(F32(value)) for value in domain))
@@ -119,7 +119,7 @@ def _set_grid(operation: str, field: str, grids: tuple[tuple[int, float, float],
         if n < 1:
             fail(gl.GL_INVALID_VALUE, operation, f"n={n}: expected 1 or more")
             return
-    context.flush()
+    context.separate()
     context.touched |= gl.GL_EVAL_BIT
     rounded = tuple((int(n), float(F32(first)), float(F32(last))) for n, first, last in grids)
     context.evaluators = evolve(context.evaluators, **{field: rounded[0] if field == "grid1" else rounded})
@@ -129,7 +129,7 @@ def switch_map(context: Context, cap: int, on: bool) -> None:
     """Enable or disable a map or GL_AUTO_NORMAL."""
     enabled = context.evaluators.enabled
     if (cap in enabled) != on:
-        context.flush()
+        context.separate()
         context.touched |= gl.GL_EVAL_BIT | gl.GL_ENABLE_BIT
         context.evaluators = evolve(context.evaluators, enabled=enabled | {cap} if on else enabled - {cap})
 

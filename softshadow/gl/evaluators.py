@@ -37,16 +37,9 @@ def _enabled_map(context: Context, n: int, names: tuple[str, ...]) -> Map | None
     return None
 
 
-def _values(a_map: Map, parameters: tuple[np.ndarray, ...], tangents: bool = False) -> Any:
-    """Return the points of a map (N, k) at parameters (N,), or points and two tangents."""
-    steps = []
-    for number, parameter in enumerate(parameters):
-        first, last = (F32(value) for value in a_map.domain[2 * number : 2 * number + 2])
-        steps.append((parameter - first) * (F32(1) / (last - first)))
-    points = a_map.points[..., np.newaxis]
-    if tangents:
-        return [each.T for each in surface_with_tangents(points, *steps)]
-    return (curve if len(steps) == 1 else surface)(points, *steps).T
+def _values(a_map: Map, parameters: tuple[np.ndarray, ...]) -> np.ndarray:
+    """Return the points of a map (N, k) at parameters (N,)."""
+    return (curve if len(parameters) == 1 else surface)(a_map.points, a_map.domain, *parameters)
 
 
 class Evaluated(NamedTuple):
@@ -82,13 +75,13 @@ def _evaluated(context: Context, parameters: tuple[np.ndarray, ...]) -> Evaluate
     finds_normals = n == 2 and gl.GL_AUTO_NORMAL in context.evaluators.enabled
     if finds_normals:
         sizes["normal"] = 3
-    with np.errstate(all="ignore"):
-        rows = {name: _values(a_map, parameters) for name, a_map in found.items()}
-        if position is not None and finds_normals:
-            points, du, dv = _values(position, parameters, tangents=True)
+    rows = {name: _values(a_map, parameters) for name, a_map in found.items()}
+    if position is not None and finds_normals:
+        points, du, dv = surface_with_tangents(position.points, position.domain, *parameters)
+        with np.errstate(all="ignore"):
             rows["normal"] = _normals(points, du, dv)
-        elif position is not None:
-            points = _values(position, parameters)
+    elif position is not None:
+        points = _values(position, parameters)
     return Evaluated(sizes, rows, points)
 
 
