@@ -73,7 +73,7 @@ class LateDraws:
     Attributes
     ----------
     draws : list             these, in their order
-    like : Draw or None      what the latest one was like
+    likes : dict             what the latest one of each mode was like
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class LateDraws:
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
         self.draws: list[LateDraw] = []
-        self.like: Draw | None = None
+        self.likes: dict[int, Draw] = {}
         self._n_numbers = 0
 
     def add(self, draw: LateDraw) -> bool:

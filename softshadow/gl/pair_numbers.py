@@ -81,14 +81,15 @@ def _like(context: Context, mode: int) -> Draw | None:
     state = context.drawn_state
     if context.labels or context.origin is not None or context.gate is not None or not context.has_followed(state):
         return None
-    like, projection, matrices = context.late.like, context.projection_stack.current, context.texture_matrices()
+    likes, projection, matrices = context.late.likes, context.projection_stack.current, context.texture_matrices()
+    like = likes.get(mode)
     if (
-        like is None or like.state is not state or like.mode != mode or like.projection is not projection
+        like is None or like.state is not state or like.projection is not projection
         or like.texture_matrices is not matrices
     ):  # fmt: skip
         if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
             return None
-        like = context.late.like = context.draw_command(mode, NO_VERTICES)
+        like = likes[mode] = context.draw_command(mode, NO_VERTICES)
     return like
 
 

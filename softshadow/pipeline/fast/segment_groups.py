@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,6 +58,20 @@ class Triangles:
     end: int
 
 
+class Taken(NamedTuple):
+    """What the draws of one state have in common in a group.
+
+    alive: what they are known by, by identity; state: the place of its numbers; triangles: of their batch; places: the
+    last columns of their rows, which are the region and the places of textures; range: of depths.
+    """
+
+    alive: tuple[Any, ...]
+    state: int
+    triangles: Triangles
+    places: tuple[int, ...]
+    range: DepthRange
+
+
 class Group:
     """Consecutive draws to one framebuffer.
 
@@ -75,19 +90,37 @@ class Group:
         self._texels: list[np.ndarray] = []
         self._places: dict[int, tuple[int, Texture]] = {}  # of the texels of textures, by the textures' identity
         self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
+        self._known: dict[tuple[int, ...], Taken] = {}  # by the identity of what a draw has in common with later ones
         self._n_triangles, self._work, self._columns = 0, 0, 0
 
     def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer, query: int) -> bool:
         """Add a draw, whose fragments a query counts if it is not 0; return False where it belongs to another group."""
-        count, units = part.end - part.first, part.program.units or []
-        new = [unit for unit in units if id(unit.texture) not in self._places]
+        count = part.end - part.first
         if self._rows and (
-            target is not self._target
-            or self._n_triangles + count > TRIANGLES
-            or len(self._texels) + len(new) >= TEXTURES  # one place is left for units that are not in use
-            or len(self._rows) == SEGMENTS
+            target is not self._target or self._n_triangles + count > TRIANGLES or len(self._rows) == SEGMENTS
         ):
             return False
+        key = id(state), id(numbers), id(part.batch), id(part.program)
+        taken = self._known.get(key)
+        if taken is None:
+            taken = self._take_first(state, numbers, part)
+            if taken is None:
+                return False
+            self._known[key] = taken
+        taken.triangles.end = part.end
+        self._rows.append((taken.state, taken.triangles.place, part.first, part.end, *taken.places))
+        self._queries.append(query)
+        self._ranges.append(taken.range)
+        self._n_triangles += count
+        self._work += work_of(numbers, part.fragments, count)
+        return True
+
+    def _take_first(self, state: State, numbers: SegmentState, part: Part) -> Taken | None:
+        """Return what a draw has in common with later ones; None if its textures have no place in this group."""
+        units = part.program.units or []
+        new = [unit for unit in units if id(unit.texture) not in self._places]
+        if self._rows and len(self._texels) + len(new) >= TEXTURES:  # one place is left for units that are not in use
+            return None
         used = [self._place_of(unit.texture) for unit in units]
         used += [TEXTURES - 1] * (UNITS - len(used))
         k, _ = self._states.setdefault(id(numbers), (len(self._states), numbers))
@@ -95,14 +128,8 @@ class Group:
         if triangles is None:
             triangles = self._batches[id(part.batch)] = Triangles(len(self._batches), part.batch, part.first, part.end)
             self._columns = max(self._columns, len(part.batch.flat))
-        triangles.end = part.end
-        region = self._region_of(state)
-        self._rows.append((k, triangles.place, part.first, part.end, *region[:4], *used))
-        self._queries.append(query)
-        self._ranges.append(depth_range_of(state, np.float32))
-        self._n_triangles += count
-        self._work += work_of(numbers, part.fragments, count)
-        return True
+        places, depth_range = (*self._region_of(state)[:4], *used), depth_range_of(state, np.float32)
+        return Taken((state, part), k, triangles, places, depth_range)
 
     def _place_of(self, texture: Texture) -> int:
         if id(texture) not in self._places:
@@ -123,6 +150,8 @@ class Group:
         for key, place in changing.items():
             self._texels[place] = self._texels[place].copy()
             del self._places[key]
+        if changing:
+            self._known.clear()
         return True
 
     def _region_of(self, state: State) -> Region:
