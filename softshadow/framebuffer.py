@@ -117,6 +117,9 @@ class Framebuffer:
         """(width, height) of the smallest attachment, (0, 0) without any."""
         if not self.attachments:
             return (0, 0)
+        if self.name == DEFAULT:  # all buffers of the window have its size
+            image = next(iter(self.attachments.values())).image
+            return image.width, image.height
         sizes = [(attached.image.width, attached.image.height) for attached in self.attachments.values()]
         if sizes.count(sizes[0]) == len(sizes):
             return sizes[0]

@@ -17,7 +17,6 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition, current
 from softshadow.framebuffer import DEFAULT
-from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
@@ -192,7 +191,7 @@ def _bitmap(
         bottom = math.floor(y + ROUNDING - np.float32(yorig))
         _draw(context, pixels, left, bottom)
     window = float(x + np.float32(xmove)), float(y + np.float32(ymove)), *rest
-    context.current.raster = evolve(context.current.raster, window=window)
+    context.current.raster = context.current.raster._replace(window=window)
 
 
 def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:

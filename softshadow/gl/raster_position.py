@@ -14,13 +14,14 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition
-from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.raster_lighting import raster_colors, transformed
 from softshadow.gl.render_modes import note_raster_position
+from softshadow.jit import read_only
 from softshadow.pipeline.geometry.geometry import planes_in_clip_space
+from softshadow.pipeline.geometry.raster_position import raster_place
 from softshadow.state import Viewport
 
 F32 = np.float32
@@ -38,58 +39,54 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
     context.separate()
     context.update_current()
     context.touched |= gl.GL_CURRENT_BIT
-    with np.errstate(all="ignore"):
-        _set(context, np.array([x, y, z, w]).astype(F32))
-
-
-def _set(context: Context, point: np.ndarray) -> None:
-    state, before = context.state, context.current.raster
+    state = context.state
     modelview, modelview_kind = context.modelview_stack.drawn()
     projection, projection_kind = context.projection_stack.drawn()
-    modelview, projection = modelview.astype(F32, copy=False), projection.astype(F32, copy=False)
-    eye = transformed(modelview, point)
-    clip = transformed(projection, eye)
+    modelview, projection = _single(modelview), _single(projection)
     planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
-    w = float(clip[3])
-    if not _is_inside(clip, state.depth.clamp, planes):
-        context.current.raster = evolve(before, valid=False)
+    *window, distance, is_inside = raster_place(
+        modelview, projection, planes, float(x), float(y), float(z), float(w), *_window_of(state.viewport),
+        state.depth.clamp,
+    )  # fmt: skip
+    if not is_inside:
+        context.current.raster = context.current.raster._replace(valid=False)
         return
-    scale, shift, near, far = _window_of(state.viewport)
-    over_w = F32(1) if w == 0 else F32(1) / clip[3]
-    x, y, z = (clip[:3] * over_w * scale + shift).tolist()
-    color, secondary = _current_colors(context)
     if state.lighting.enabled:
-        color, secondary = raster_colors(context, point, modelview, modelview_kind)
-    if state.depth.clamp:  # as in Mesa, which clamps w in place of z
-        w = (far if w > far else w) if w > near else near
-    context.current.raster = RasterPosition(
-        window=(x, y, z, w),
-        distance=_distance(context, eye),
-        color=color,
-        secondary=secondary,
-        texcoords=_texcoords(context),
-    )
+        point = np.array([x, y, z, w]).astype(F32)
+        with np.errstate(all="ignore"):
+            color, secondary = raster_colors(context, point, modelview, modelview_kind)
+    else:
+        color, secondary = _current_colors(context)
+    _set(context, tuple(window), distance, color, secondary, _texcoords(context))
+
+
+def _set(
+    context: Context,
+    window: tuple[float, ...],
+    distance: float,
+    color: tuple[float, ...],
+    secondary: tuple[float, ...],
+    texcoords: tuple[tuple[float, ...], ...],
+) -> None:
+    """Set a valid raster position; `distance` is that from the eye."""
+    if context.state.fog.source == gl.GL_FOG_COORD:
+        distance = float(F32(context.current.fog_coordinate))
+    context.current.raster = RasterPosition(window, True, distance, color, secondary, texcoords)
     note_raster_position(context)
 
 
+def _single(matrix: np.ndarray) -> np.ndarray:
+    """Return a matrix in single precision, which contexts with exact precision do not have."""
+    return matrix if matrix.dtype == F32 else read_only(matrix.astype(F32))
+
+
 @lru_cache(maxsize=16)
-def _window_of(view: Viewport) -> tuple[np.ndarray, np.ndarray, float, float]:
+def _window_of(view: Viewport) -> tuple[np.ndarray, np.ndarray, np.float32, np.float32]:
     """Return scale and shift (3,) from normalized device coordinates to the window, and the depth range."""
     near, far = F32(view.near), F32(view.far)
     scale = np.array([F32(0.5) * F32(view.width), F32(0.5) * F32(view.height), F32(0.5) * (far - near)])
     shift = np.array([scale[0] + F32(view.x), scale[1] + F32(view.y), F32(0.5) * (near + far)])
-    return scale, shift, float(near), float(far)
-
-
-def _is_inside(clip: np.ndarray, depth_clamp: bool, planes: np.ndarray) -> bool:
-    """Return whether a point lies in the view volume; what is not a number is inside, as in Mesa."""
-    x, y, z, w = clip.tolist()
-    outside = x > w or x < -w or y > w or y < -w or (not depth_clamp and (z < -w or z > w))
-    if outside or not len(planes):
-        return not outside
-    x, y, z, w = clip
-    distances = [((x * a + y * b) + z * c) + w * d for a, b, c, d in planes]
-    return not any(distance < 0 for distance in distances)
+    return scale, shift, near, far
 
 
 def _texcoords(context: Context) -> tuple[tuple[float, ...], ...]:
@@ -111,13 +108,6 @@ def _current_colors(context: Context) -> list[tuple[float, ...]]:
     return [tuple(array("f", color)) for color in (current.color, current.secondary)]
 
 
-def _distance(context: Context, eye: np.ndarray) -> float:
-    """Return the distance of the raster position: that of its place in eye space, or the current fog coordinate."""
-    if context.state.fog.source == gl.GL_FOG_COORD:
-        return float(F32(context.current.fog_coordinate))
-    return float(np.sqrt((eye[0] * eye[0] + eye[1] * eye[1]) + eye[2] * eye[2]))
-
-
 @in_lists
 def glWindowPos3f(x: float, y: float, z: float) -> None:
     """Set the raster position in window coordinates, z from 0 to 1 within the depth range; it is always valid."""
@@ -133,15 +123,8 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
         window = (float(F32(x)), float(F32(y)), float(depth), 1.0)
     color, secondary = (tuple(min(max(each, 0.0), 1.0) for each in color) for color in _current_colors(context))
     coordinates = tuple(tuple(each) for each in context.current.texcoords)
-    context.current.raster = RasterPosition(
-        window=window,
-        distance=_distance(context, np.zeros(3, F32)),
-        color=color,
-        secondary=secondary,
-        texcoords=coordinates,
-    )
     context.touched |= gl.GL_CURRENT_BIT
-    note_raster_position(context)
+    _set(context, window, 0.0, color, secondary, coordinates)
 
 
 def glRasterPos2f(x: float, y: float) -> None:

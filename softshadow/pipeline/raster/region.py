@@ -19,11 +19,13 @@ def region_of(state: State, target: Framebuffer) -> Region:
     """
     width, height = target.size
     left, right, bottom, top = 0, width, 0, height
-    if state.scissor.enabled:
-        box = state.scissor
+    box, attenuation = state.scissor, state.points.attenuation
+    if not box.enabled and attenuation == NO_ATTENUATION:
+        return Region(left, right, bottom, top, int(target.flipped))
+    if box.enabled:
         left, right = max(left, box.x), min(right, box.x + box.width)
         bottom, top = max(bottom, box.y), min(top, box.y + box.height)
-    if state.points.attenuation != NO_ATTENUATION:  # as in llvmpipe, though the specification does not ask for it
+    if attenuation != NO_ATTENUATION:  # as in llvmpipe, though the specification does not ask for it
         view = state.viewport
         left, right = max(left, view.x), min(right, view.x + view.width)
         bottom, top = max(bottom, view.y), min(top, view.y + view.height)
