@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
-from softshadow.pipeline import queue
+from softshadow.pipeline import queue, use_short_cuts
 from softshadow.pipeline.fast.batch.segments import Part
 
 
@@ -47,6 +48,33 @@ def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch
     gl.glFinish()
     assert batches == [8, 4]  # of triangles and of lines
     assert segments == [2, 2] * 4  # two triangles; two of a line
+
+
+def draw_three_triangles_twice(height):
+    """Return a window with draws of three triangles, of which the last one has a height in normalized coordinates."""
+    context = gl.create_context(SIZE, SIZE)
+    first = [(-0.9, -0.8), (0.7, -0.6), (0.5, 0.9), (-0.9, 0.1), (0.3, 0.2), (-0.4, 0.8)]
+    for shift in (0.0, 0.05):
+        gl.glTranslatef(shift, 0, 0)
+        gl.glBegin(gl.GL_TRIANGLES)
+        for x, y in (*first, (-0.5, 0.3), (0.8, 0.3), (0.1, 0.3 + height)):
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+    gl.glFinish()
+    return context
+
+
+@pytest.mark.parametrize(
+    ("height", "waiting", "is_drawn"),
+    [(0.6, [2], True), (-0.2, [2], True), (0.0, [], False), (1e-9, [], False), (1e-6, [], True)],
+)
+def test_three_triangles_wait_where_the_last_one_has_a_height(batches, height, waiting, is_drawn):
+    """Mesa leaves out all three of a draw where it has none; else they are like those of any other draw."""
+    context = draw_three_triangles_twice(height)
+    assert batches == waiting
+    assert gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RED, gl.GL_UNSIGNED_BYTE).any() == is_drawn
+    with use_short_cuts(False):
+        assert same_window(context, draw_three_triangles_twice(height))
 
 
 @pytest.mark.parametrize("plane", [gl.GL_DEPTH_BUFFER_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_COLOR_BUFFER_BIT])

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
@@ -31,9 +32,10 @@ from softshadow.pipeline.fast.batch.vertices import (
 from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
+from softshadow.pipeline.geometry.vertex import to_clip
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
-from softshadow.pipeline.mesa.rectangles import start_of_last_nine
+from softshadow.pipeline.mesa.rectangles import LAST_NINE, TRIANGLE, start_of_last_nine
 from softshadow.programs.fixed_function import Unit, has_secondary, is_replaced, needs_vertex_color, units_in_use
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
@@ -57,6 +59,7 @@ WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recen
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
 WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
+LEAST_HEIGHT = 1 / 8  # half pixels that no rounding makes of nothing: steps of window y are 1/256 pixel or less
 
 
 class Arrays(NamedTuple):
@@ -271,9 +274,21 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
 
 
 def leaves_out_triangles(command: Draw) -> bool:
-    """Return whether llvmpipe may leave out triangles of a draw of separate triangles (`mesa.rectangles`)."""
-    is_list = command.mode == gl.GL_TRIANGLES and command.indices is None
-    return is_list and start_of_last_nine(len(command.vertices.position)) >= 0
+    """Return whether llvmpipe may leave out triangles of a draw of separate triangles (`mesa.rectangles`).
+
+    It leaves out three, of which the last one has no height in the window.
+    """
+    if command.mode != gl.GL_TRIANGLES or command.indices is not None:
+        return False
+    positions = command.vertices.position
+    first = start_of_last_nine(len(positions))
+    if first < 0:
+        return False
+    last = positions[first + LAST_NINE - TRIANGLE : first + LAST_NINE]
+    clip = to_clip(matrices.multiply(command.projection, command.modelview), last).astype(np.float64)
+    with np.errstate(all="ignore"):
+        heights = clip[:, 1] / clip[:, 3]
+    return not (heights.max() - heights.min()) * command.state.viewport.height > LEAST_HEIGHT
 
 
 def is_filled(polygon: Polygon) -> bool:
