@@ -51,12 +51,13 @@ class CachedTriangles(NamedTuple):
 class GeometryCache:
     """The cached triangles of one storage, the least recently used first, and how often draws were seen, by hash.
 
-    `recent` are those of `recent_triangles`.
+    `recent` are those of `recent_triangles`; `bytes` is the size of all entries.
     """
 
     entries: dict[Hashable, CachedTriangles] = field(default_factory=dict)
     seen: dict[int, int] = field(default_factory=dict)
     recent: RecentTriangles = field(default_factory=RecentTriangles)
+    bytes: int = 0
 
     def look_up(self, key: Hashable) -> Geometry | None:
         """Return the cached triangles of an equal draw, or None."""
@@ -68,8 +69,9 @@ class GeometryCache:
     def add(self, key: Hashable, entry: CachedTriangles) -> None:
         """Add an entry; the least recently used ones make room for it."""
         self.entries[key] = entry
-        while sum(each.bytes for each in self.entries.values()) > CACHE_BYTES:
-            del self.entries[next(iter(self.entries))]
+        self.bytes += entry.bytes
+        while self.bytes > CACHE_BYTES:
+            self.bytes -= self.entries.pop(next(iter(self.entries))).bytes
 
     def pays(self, key: Hashable) -> bool:
         """Return whether to cache a draw: an equal one was seen often enough."""

@@ -95,12 +95,13 @@ Key = tuple[int, object, object]  # fingerprint of a draw, and the tokens of dep
 class VisibilityCache:
     """The cached fills of one storage, and the fingerprints of draws that were seen: True where caching may pay.
 
-    `surfaces` are those of `drawn_surfaces`.
+    `surfaces` are those of `drawn_surfaces`; `bytes` is the size of all entries.
     """
 
     entries: dict[Key, CacheEntry] = field(default_factory=dict)  # in the order of their last use
     seen: dict[int, bool] = field(default_factory=dict)
     surfaces: list[Any] = field(default_factory=list)
+    bytes: int = 0
 
     def look_up(self, key: Key, inputs: FillInputs) -> CacheEntry | None:
         """Return the cached fill of equal inputs over equal buffers, or None."""
@@ -115,13 +116,17 @@ class VisibilityCache:
 
     def evict(self, key: Key) -> None:
         """Remove an entry; without a hit, the draw is not cached again."""
-        if not self.entries.pop(key).hits:
+        entry = self.entries.pop(key)
+        self.bytes -= entry.bytes
+        if not entry.hits:
             self.seen[key[0]] = False
 
     def add(self, key: Key, entry: CacheEntry) -> None:
         """Add an entry; the least recently used ones are evicted to make room."""
+        replaced = self.entries.pop(key, None)
         self.entries[key] = entry
-        while sum(each.bytes for each in self.entries.values()) > CACHE_BYTES:
+        self.bytes += entry.bytes - (replaced.bytes if replaced else 0)
+        while self.bytes > CACHE_BYTES:
             self.evict(next(iter(self.entries)))
 
     def pays(self, fingerprint: int) -> bool:

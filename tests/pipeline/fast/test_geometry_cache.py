@@ -94,4 +94,4 @@ def test_the_cache_stays_within_its_bytes(monkeypatch):
         for seed in range(4):
             context, _ = frame(seed)
             cache = context.storage.geometry_cache
-            assert sum(entry.bytes for entry in cache.entries.values()) <= 4000
+            assert cache.bytes == sum(entry.bytes for entry in cache.entries.values()) <= 4000

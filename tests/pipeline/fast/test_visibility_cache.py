@@ -259,4 +259,5 @@ def test_entries_evicted_without_a_hit_are_not_cached_again():
 def test_the_cache_stays_within_its_bytes(monkeypatch):
     monkeypatch.setattr(visibility_cache, "CACHE_BYTES", 5000)
     context, _ = frame(4, ["clear", "draw", "draw", "draw_in_box", "draw_with_offset"] * 6)
-    assert sum(entry.bytes for entry in context.storage.visibility_cache.entries.values()) <= 5000
+    cache = context.storage.visibility_cache
+    assert cache.bytes == sum(entry.bytes for entry in cache.entries.values()) <= 5000
