@@ -26,6 +26,7 @@ from softshadow.pipeline.fast.span_state import (
     BIAS,
     BY_EXPONENT,
     CONSTANT_LEVEL,
+    IS_LINE,
     LAST_LEVEL,
     LEAST,
     LOD_MODE,
@@ -34,7 +35,7 @@ from softshadow.pipeline.fast.span_state import (
     MOST,
     NO_LEVELS,
 )
-from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISSA_BITS, ONE_BITS
+from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISSA_BITS, ONE_BITS, ROOT_OF_2
 from softshadow.tokens import GL_LINEAR, GL_NONE
 
 ODD = np.uint64(1)
@@ -44,10 +45,11 @@ NOT_A_NUMBER = np.float32(np.nan)  # positive, as that of NumPy's maximum
 
 
 @kernel
-def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, room):
+def write_squared_steps(planes, spans, n_spans, column, is_flat, is_line, width, height, room):
     """Write SQUARED, `level_of_detail.squared_texels_per_pixel` of the block of pixels that each fragment lies in.
 
-    `column` is the number of the coordinate s; t and q are the next one and the third next.
+    `column` is the number of the coordinate s; t and q are the next one and the third next. For a 1-D texture it is
+    `level_of_detail.texels_per_pixel`, which is not squared.
     """
     k, wide, high = np.uint64(planes.shape[2] - 1), np.float32(width), np.float32(height)
     c, d, e = np.uint64(column), np.uint64(column + 1), np.uint64(column + 3)
@@ -88,9 +90,12 @@ def write_squared_steps(planes, spans, n_spans, column, is_flat, width, height, 
                 down_s = ((ds * i + s0) + s_lower) * w * over_q - s
                 down_t = ((dt * i + t0) + t_lower) * w * over_q - t
             step_s, step_t, down_s, down_t = step_s * wide, step_t * high, down_s * wide, down_t * high
-            a, b_squared = step_s * step_s + step_t * step_t, down_s * down_s + down_t * down_t
-            larger = a if a > b_squared else b_squared
-            room[QUADS + b] = larger if a == a else NOT_A_NUMBER  # whose sign decides about the level
+            if is_line:
+                step, down = abs(step_s), abs(down_s)
+            else:
+                step, down = step_s * step_s + step_t * step_t, down_s * down_s + down_t * down_t
+            larger = step if step > down else down
+            room[QUADS + b] = larger if step == step else NOT_A_NUMBER  # whose sign decides about the level
         for s in range(begin, m):
             first, end = spans[SPAN_START, s], spans[SPAN_START, s + NEXT]
             before = np.uint64(spans[SPAN_LEFT, s] - even)
@@ -117,8 +122,17 @@ def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
         for n in range(np.uint64(count)):
             whole[LEVEL + n], whole[LINEAR + n], room[WEIGHT + n] = 0, large, ZERO
         return
-    if mode == BY_EXPONENT:
-        top = np.int32(switches[unit + LAST_LEVEL])
+    is_line, top = switches[unit + IS_LINE], np.int32(switches[unit + LAST_LEVEL])
+    if mode == BY_EXPONENT and is_line:
+        for n in range(np.uint64(count)):
+            length = room[SQUARED + n]
+            bits = np.float32(length * ROOT_OF_2).view(np.int32)
+            level = np.int32(((bits >> MANTISSA_BITS) & 0xFF) - EXPONENT_BIAS)
+            level = level if level > NO_LEVEL else NO_LEVEL
+            whole[LEVEL + n] = level if level < top else top
+            whole[LINEAR + n] = large if length <= ONE else small  # which NaN takes
+            room[WEIGHT + n] = ZERO
+    elif mode == BY_EXPONENT:
         for n in range(np.uint64(count)):
             squared = room[SQUARED + n]
             exponent = np.int32((np.float32(squared).view(np.int32) >> MANTISSA_BITS) & 0xFF) - (EXPONENT_BIAS - 1)
@@ -133,6 +147,9 @@ def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
             for n in range(np.uint64(count)):
                 room[SQUARED + n] = least
         else:
+            if is_line:
+                for n in range(np.uint64(count)):
+                    room[SQUARED + n] = room[SQUARED + n] * room[SQUARED + n]
             for n in range(np.uint64(count)):
                 bits = np.float32(room[SQUARED + n]).view(np.int32)
                 mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)

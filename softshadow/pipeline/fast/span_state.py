@@ -2,8 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(1-D textures with levels, rectangular ones, textures of floats, cube maps that are seamless or of depths, borders of
-3-D textures, more than four units ...) is shaded by the textbook.
+(rectangular textures, those of floats, cube maps that are seamless or of depths, borders of 1-D and 3-D textures, more
+than four units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ UNITS = 4  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 67
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 68
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
@@ -43,6 +43,7 @@ UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 67
 COMBINED = 40  # where the two functions of GL_COMBINE begin
 SLICES, WRAP_R = 62, 63  # of a 3-D texture
 IS_CUBE, BY_RECIPROCAL, BY_PIXEL = 64, 65, 66  # how directions are projected, and what has a level of its own
+IS_LINE = 67  # whether the texture is 1-D, so that t has no part in the level of detail
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
@@ -186,7 +187,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     assert image is not None
     is_depth, is_flat = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_2D
     is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
-    is_line = texture.target == gl.GL_TEXTURE_1D and not needs_blocks(texture)  # t has no part in the level of detail
+    is_line = texture.target == gl.GL_TEXTURE_1D
     if (
         not (is_flat or is_box or is_cube or is_line)
         or (is_depth and not is_flat)
@@ -216,7 +217,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
         switches[PATH] = IN_FLOAT
     else:
         switches[PATH] = IN_BYTES
-    switches[WRAP_S : WRAP_T + 1] = wraps[:2]
+    switches[WRAP_S : WRAP_T + 1], switches[IS_LINE] = wraps[:2], is_line
     if is_cube:
         switches[IS_CUBE : BY_PIXEL + 1] = True, needs_level_of_detail(texture), is_mipmapped(texture)
     if is_box:

@@ -20,6 +20,7 @@ from softshadow.pipeline.fast.span_state import (
     IN_BYTES,
     IN_FLOAT,
     IS_CUBE,
+    IS_LINE,
     IS_SPREAD,
     LOD_MODE,
     NEAREST_DEPTH,
@@ -62,8 +63,9 @@ def place_block(planes, spans, n_spans, count, flat, switches, numbers, unit, nu
         write_squared_steps_in_space(planes, spans, n_spans, flat[column], switches, unit, room)
     elif has_levels:
         write_squared_steps(
-            planes, spans, n_spans, column, flat[column], switches[unit + WIDTH], switches[unit + HEIGHT], room
-        )
+            planes, spans, n_spans, column, flat[column], switches[unit + IS_LINE] != 0, switches[unit + WIDTH],
+            switches[unit + HEIGHT], room,
+        )  # fmt: skip
     if has_levels or path == IN_FLOAT:
         select_levels_of_block(switches, numbers, unit, number, count, room, whole)
     project_block(column, count, switches[unit + READS_R] != 0, room)

@@ -105,8 +105,7 @@ def test_linear_filters_in_float_have_borders_and_compare_depths(depth_share, mo
 @pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
 def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
-    if target == gl.GL_TEXTURE_1D:  # others of them are shaded by the textbook
-        monkeypatch.setattr(fixed_function_pictures, "MIN_FILTERS", (gl.GL_NEAREST, gl.GL_LINEAR))
+    if target == gl.GL_TEXTURE_1D:  # those with borders, and of depths, are shaded by the textbook
         monkeypatch.setattr(fixed_function_pictures, "WRAPS", (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE))
         monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 0)
     shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(30)]
