@@ -308,13 +308,65 @@ def wall_of_bricks(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
     return frame
 
 
+def curves(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+    """Twenty Bezier curves by glEvalCoord1f, with their control points."""
+
+    def frame(number: int) -> None:
+        flat_view(gl, size, 640.0, 480.0)
+        clear(gl)
+        gl.glEnable(gl.GL_MAP1_VERTEX_3)
+        gl.glPointSize(5.0)
+        for i in range(20):
+            x, y = 20.0 * i, 50 * math.sin(0.1 * number + i)
+            points = [[x, 100 + y, 0.0], [x + 60, 400.0, 0.0], [x + 130, 20.0, 0.0], [x + 200, 300.0 + i, 0.0]]
+            gl.glMap1f(gl.GL_MAP1_VERTEX_3, 0.0, 1.0, np.array(points, np.float32))
+            gl.glColor3f(1.0, i / 20, 0.0)
+            gl.glBegin(gl.GL_LINE_STRIP)
+            for step in range(31):
+                gl.glEvalCoord1f(step / 30)
+            gl.glEnd()
+            gl.glColor3f(1.0, 1.0, 0.0)
+            gl.glBegin(gl.GL_POINTS)
+            for point in points:
+                gl.glVertex3f(*point)
+            gl.glEnd()
+
+    return frame
+
+
+def clock(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+    """A clock: each line has a rotation and a width of its own."""
+
+    def turned(angle: float, width: float, first: float, last: float) -> None:
+        gl.glPushMatrix()
+        gl.glRotatef(angle, 0.0, 0.0, 1.0)
+        gl.glLineWidth(width)
+        gl.glBegin(gl.GL_LINES)
+        gl.glVertex2f(0.0, first)
+        gl.glVertex2f(0.0, last)
+        gl.glEnd()
+        gl.glPopMatrix()
+
+    def frame(number: int) -> None:
+        flat_view(gl, size, 640.0, 480.0)
+        clear(gl)
+        gl.glTranslatef(320.0, 240.0, 0.0)
+        gl.glColor3f(1.0, 1.0, 1.0)
+        for minute in range(60):
+            turned(6.0 * minute, 1.0 if minute % 5 else 3.0, 180.0, 195.0)
+        for speed, width, length in ((1, 6.0, 100.0), (6, 4.0, 150.0), (30, 2.0, 170.0)):
+            turned(-number * speed % 360, width, 0.0, length)
+
+    return frame
+
+
 PROGRAMS = tuple(
     replace(each, name=f"{FAMILY}/{each.name}")
     for each in map(
         program,
         (
             pencil_sketch, dashed_boxes, widgets, leaves, stars, four_views, depth_of_field, surface_plot,
-            watched_cubes, sized_points, wall_of_bricks,
+            watched_cubes, sized_points, wall_of_bricks, curves, clock,
         ),
     )
 )  # fmt: skip
