@@ -44,7 +44,7 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
     projection, projection_kind = context.projection_stack.drawn()
     modelview, projection = _single(modelview), _single(projection)
     planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
-    *window, distance, is_inside = raster_place(
+    x_window, y_window, z_window, w_clip, distance, is_inside = raster_place(
         modelview, projection, planes, float(x), float(y), float(z), float(w), *_window_of(state.viewport),
         state.depth.clamp,
     )  # fmt: skip
@@ -57,7 +57,8 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
             color, secondary = raster_colors(context, point, modelview, modelview_kind)
     else:
         color, secondary = _current_colors(context)
-    _set(context, tuple(window), distance, color, secondary, _texcoords(context))
+    window = float(x_window), float(y_window), float(z_window), float(w_clip)  # also where kernels are not compiled
+    _set(context, window, float(distance), color, secondary, _texcoords(context))
 
 
 def _set(
