@@ -75,13 +75,13 @@ def _evaluated(context: Context, parameters: tuple[np.ndarray, ...]) -> Evaluate
     finds_normals = n == 2 and gl.GL_AUTO_NORMAL in context.evaluators.enabled
     if finds_normals:
         sizes["normal"] = 3
-    rows = {name: _values(a_map, parameters) for name, a_map in found.items()}
-    if position is not None and finds_normals:
-        points, du, dv = surface_with_tangents(position.points, position.domain, *parameters)
-        with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):
+        rows = {name: _values(a_map, parameters) for name, a_map in found.items()}
+        if position is not None and finds_normals:
+            points, du, dv = surface_with_tangents(position.points, position.domain, *parameters)
             rows["normal"] = _normals(points, du, dv)
-    elif position is not None:
-        points = _values(position, parameters)
+        elif position is not None:
+            points = _values(position, parameters)
     return Evaluated(sizes, rows, points)
 
 

@@ -44,21 +44,22 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
     projection, projection_kind = context.projection_stack.drawn()
     modelview, projection = _single(modelview), _single(projection)
     planes = planes_in_clip_space(state.clip_planes, projection, projection_kind)
-    x_window, y_window, z_window, w_clip, distance, is_inside = raster_place(
-        modelview, projection, planes, float(x), float(y), float(z), float(w), *_window_of(state.viewport),
-        state.depth.clamp,
-    )  # fmt: skip
-    if not is_inside:
-        context.current.raster = context.current.raster._replace(valid=False)
-        return
-    if state.lighting.enabled:
-        point = np.array([x, y, z, w]).astype(F32)
-        with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # numbers may be too large; interpreted kernels would warn
+        x_window, y_window, z_window, w_clip, distance, is_inside = raster_place(
+            modelview, projection, planes, float(x), float(y), float(z), float(w), *_window_of(state.viewport),
+            state.depth.clamp,
+        )  # fmt: skip
+        if not is_inside:
+            context.current.raster = context.current.raster._replace(valid=False)
+            return
+        if state.lighting.enabled:
+            point = np.array([x, y, z, w]).astype(F32)
             color, secondary = raster_colors(context, point, modelview, modelview_kind)
-    else:
-        color, secondary = _current_colors(context)
+        else:
+            color, secondary = _current_colors(context)
+        texcoords = _texcoords(context)
     window = float(x_window), float(y_window), float(z_window), float(w_clip)  # also where kernels are not compiled
-    _set(context, window, float(distance), color, secondary, _texcoords(context))
+    _set(context, window, float(distance), color, secondary, texcoords)
 
 
 def _set(

@@ -178,6 +178,33 @@ def test_draws_under_matrices_of_their_own_are_late(context):
     assert number_of(context) == 0
 
 
+@pytest.mark.parametrize("stack", [gl.GL_PROJECTION, gl.GL_TEXTURE])
+def test_other_matrices_are_those_of_each_draw_too(context, stack):
+    gl.glMatrixMode(stack)
+    for number in range(3):
+        triangle()
+        assert number_of(context) == number + 1
+    draws = context.frame.commands
+    matrices = [draw.projection if stack == gl.GL_PROJECTION else draw.texture_matrices[0] for draw in draws]
+    assert [matrix[2, 3] for matrix in matrices] == [0.0, 0.125, 0.25]
+
+
+def test_draws_of_two_modes_in_turns_are_late(context):
+    modes = [gl.GL_QUADS, gl.GL_LINE_LOOP] * 3
+    for number, mode in enumerate(modes):
+        if number == 4:
+            gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glBegin(mode)
+        for corner in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)):
+            gl.glVertex2f(*corner)
+        gl.glEnd()
+    gl.glTranslatef(0.0, 0.0, 0.125)
+    assert number_of(context) == len(modes)
+    draws = context.frame.commands
+    assert [draw.mode for draw in draws] == modes
+    assert [draw.state.depth.enabled for draw in draws] == [False] * 4 + [True] * 2
+
+
 def test_states_between_them_are_those_of_each_draw(context):
     for on in (True, False):
         (gl.glEnable if on else gl.glDisable)(gl.GL_DEPTH_TEST)

@@ -50,16 +50,21 @@ def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch
     assert segments == [2, 2] * 4  # two triangles; two of a line
 
 
+def draw_three_triangles(height, shift=0.0):
+    """Draw three triangles, of which the last one has a height in normalized coordinates."""
+    corners = [(-0.9, -0.8), (0.7, -0.6), (0.5, 0.9), (-0.9, 0.1), (0.3, 0.2), (-0.4, 0.8), (-0.5, 0.3), (0.8, 0.3)]
+    gl.glBegin(gl.GL_TRIANGLES)
+    for x, y in (*corners, (0.1, 0.3 + height)):
+        gl.glVertex2f(x + shift, y)
+    gl.glEnd()
+
+
 def draw_three_triangles_twice(height):
-    """Return a window with draws of three triangles, of which the last one has a height in normalized coordinates."""
+    """Return a window with two such draws, under matrices of their own."""
     context = gl.create_context(SIZE, SIZE)
-    first = [(-0.9, -0.8), (0.7, -0.6), (0.5, 0.9), (-0.9, 0.1), (0.3, 0.2), (-0.4, 0.8)]
     for shift in (0.0, 0.05):
         gl.glTranslatef(shift, 0, 0)
-        gl.glBegin(gl.GL_TRIANGLES)
-        for x, y in (*first, (-0.5, 0.3), (0.8, 0.3), (0.1, 0.3 + height)):
-            gl.glVertex2f(x, y)
-        gl.glEnd()
+        draw_three_triangles(height)
     gl.glFinish()
     return context
 
@@ -75,6 +80,27 @@ def test_three_triangles_wait_where_the_last_one_has_a_height(batches, height, w
     assert gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RED, gl.GL_UNSIGNED_BYTE).any() == is_drawn
     with use_short_cuts(False):
         assert same_window(context, draw_three_triangles_twice(height))
+
+
+@pytest.mark.parametrize("in_list", [False, True])
+@pytest.mark.parametrize("heights", [(0.6, 0.0, 0.6), (0.0, 0.6, 0.0), (0.6, 0.6, 0.0), (0.6, 1e-6, 0.0)])
+def test_three_triangles_with_and_without_a_height_in_turns(heights, in_list):
+    def draw():
+        context = gl.create_context(SIZE, SIZE)
+        if in_list:
+            gl.glNewList(1, gl.GL_COMPILE)
+        for number, height in enumerate(heights):
+            draw_three_triangles(height, 0.1 * number)
+            gl.glRectf(-0.9, -0.9, 0.9, -0.8)
+        if in_list:
+            gl.glEndList()
+            gl.glCallList(1)
+        gl.glFinish()
+        return context
+
+    context = draw()
+    with use_short_cuts(False):
+        assert same_window(context, draw())
 
 
 @pytest.mark.parametrize("plane", [gl.GL_DEPTH_BUFFER_BIT, gl.GL_STENCIL_BUFFER_BIT, gl.GL_COLOR_BUFFER_BIT])
