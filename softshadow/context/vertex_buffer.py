@@ -7,6 +7,8 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import dropwhile, groupby
+from operator import attrgetter
 
 from softshadow.context.joined_pairs import JoinedPairs
 from softshadow.context.late_draws import LateDraw
@@ -86,18 +88,24 @@ class VertexBuffer:
             self.driver_draw = DriverDraw(mode)
         return self.driver_draw
 
-    def draw_pairs(self, commands: Sequence[Draw]) -> None:
-        """Draw glBegin ... glEnd pairs of one mode, none of which are joined, that differ in their vertices only."""
-        mode, counts = commands[0].mode, [len(command.vertices.position) for command in commands]
+    def draw_pairs(self, commands: Sequence[Draw], modes: Sequence[int], counts: Sequence[int]) -> None:
+        """Draw glBegin ... glEnd pairs, none of which Mesa joins, that differ in their modes and vertices only.
+
+        `commands` are draws of each or of several, in their order; `modes` and `counts` the modes and numbers of
+        vertices of each pair. Those of a driver's draw that is lost have a command of their own.
+        """
         self.n_vertices += sum(counts)
         self.draw_joined_pairs()
-        driver_draw = self._part_of(mode)
         if offset_depends_on_mode(commands[0].state):
             for command in commands:
                 self.draw(command)
-        elif not driver_draw.is_lost:
-            self._carry_out_alike(commands)
-        if self.pairs.add_several(mode, counts) >= MAX_PAIRS:
+        else:
+            if self.driver_draw.is_lost and self.driver_draw.mode == modes[0]:
+                commands = list(dropwhile(lambda command: command.called_mode == modes[0], commands))
+            for _, same in groupby(commands, attrgetter("mode")):
+                self._carry_out_alike(list(same))
+            self._part_of(modes[-1])
+        if self.pairs.add_several(modes[-1], counts) >= MAX_PAIRS:
             self.submit()
 
     def _offset_mode_of(self, draw: Draw) -> int:

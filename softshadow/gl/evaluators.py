@@ -18,7 +18,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.gl.immediate import glBegin, glEnd
-from softshadow.gl.similar_pairs import NO_STARTS, PairVertices, first_pairs, similar_pairs
+from softshadow.gl.similar_pairs import NO_STARTS, PairSeries, first_pairs, similar_pairs
 from softshadow.gl.vertex_format import REST, add_vertex, carry_attribute, store_vertices
 
 F32 = np.float32
@@ -322,13 +322,13 @@ class Mesh(NamedTuple):
     Attributes
     ----------
     evaluated : what the maps have at the points of all primitives, one after the other; `ends` of each of them
-    pairs : the primitives as `similar_pairs` draws them; none without positions
+    series : the primitives as `similar_pairs` draws them; None if there is none, or without positions
     """
 
     mode: int
     evaluated: Evaluated
     ends: list[int]
-    pairs: list[PairVertices]
+    series: PairSeries | None
 
     @property
     def sizes(self) -> dict[str, int]:
@@ -373,20 +373,21 @@ def _mesh(context: Context, mode: int, grid: Any, ranges: tuple[tuple[int, int],
     evaluated = _evaluated(context, parameters).at(np.concatenate([np.empty(0, np.int64), *strips]))
     ends = np.cumsum([0, *map(len, strips)]).tolist()
     arrays = evaluated.arrays(context)
-    pairs = [PairVertices({name: each[a:b] for name, each in arrays.items()}) for a, b in pairwise(ends) if arrays]
-    return Mesh(mode, evaluated, ends, pairs)
+    counts = [len(strip) for strip in strips]
+    series = PairSeries(arrays, [mode] * len(strips), counts) if arrays and strips else None
+    return Mesh(mode, evaluated, ends, series)
 
 
 def _draw(context: Context, mesh: Mesh) -> None:
     """Draw the primitives of a mesh."""
-    similar, n_done = None, 0
-    if mesh.pairs:
-        similar = first_pairs(context, mesh.mode, mesh.sizes, NO_STARTS, mesh.pairs[0].count)
+    similar, n_done, series = None, 0, mesh.series
+    if series is not None:
+        similar = first_pairs(context, mesh.mode, mesh.sizes, NO_STARTS, series.counts[0])
     for number, (start, end) in enumerate(pairwise(mesh.ends)):
-        if number == 1 and mesh.pairs and similar is None:
+        if number == 1 and series is not None and similar is None:
             similar = similar_pairs(context, mesh.sizes)
-        if similar is not None and n_done <= number:
-            n_done = number + similar.add(mesh.mode, mesh.pairs[number:])
+        if series is not None and similar is not None and n_done <= number:
+            n_done = similar.add(series, number)
         if n_done <= number:
             glBegin(mesh.mode)
             _add_vertices(context, mesh.evaluated.at(slice(start, end)), end - start)

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, Primitive, current, thread
+from softshadow.context import Context, current, thread
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
-from softshadow.gl.pair_numbers import add_resumed, collect_pair, resume
+from softshadow.gl.pair_numbers import add_resumed, can_be_joined, collect_pair, resume
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.geometry.separate import SEPARABLE
@@ -78,20 +78,13 @@ def glEnd() -> None:
     one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
     if not (primitive.start and add_resumed(context, mode, primitive, count)):
-        if mode in SEPARATE or (mode in SEPARABLE and _joins_others(context, primitive)):
+        # a primitive with arrays is drawn again with the same ones
+        if mode in SEPARATE or (mode in SEPARABLE and can_be_joined(context) and not primitive.arrays):
             collect_pair(context, mode, primitive)
         else:
             context.draw_primitive(mode, vertices_of(context, primitive))
     one_line = mode == gl.GL_LINE_STRIP and count == 2
     context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
-
-
-def _joins_others(context: Context, primitive: Primitive) -> bool:
-    """Return whether a strip, fan, loop or polygon may become a part of a draw of several ones.
-
-    Those with arrays are drawn again with the same ones; feedback, selection and origins tell them apart.
-    """
-    return not primitive.arrays and context.origin is None and context.render_mode.mode == gl.GL_RENDER
 
 
 def consecutive_indices(count: int) -> np.ndarray:

@@ -6,6 +6,7 @@ vertices of such pairs are those of one `Primitive`: its pair pauses at glEnd, a
 
 from __future__ import annotations
 
+from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
 from softshadow.context.joined_pairs import Told
 from softshadow.context.late_draws import NO_VERTICES, LateDraw
@@ -33,6 +34,14 @@ class PairNumbers:
     def vertices(self) -> Vertices:
         """Return the vertices of all pairs."""
         return vertices_of(self._context, self.primitive)
+
+
+def can_be_joined(context: Context) -> bool:
+    """Return whether strips, fans, loops or polygons in a row may become one draw of separate triangles or lines.
+
+    Feedback, selection and origins tell them apart.
+    """
+    return context.origin is None and context.render_mode.mode == gl.GL_RENDER
 
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:

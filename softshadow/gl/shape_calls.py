@@ -7,19 +7,30 @@ drawn together without their calls where that is decided already (`similar_pairs
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from typing import Any
 
 from softshadow.context import Context, thread
 from softshadow.gl.immediate import glBegin, glEnd, glVertex3f
-from softshadow.gl.similar_pairs import PairVertices, SimilarPairs, first_pairs, similar_pairs
+from softshadow.gl.similar_pairs import PairSeries, PairVertices, first_pairs, similar_pairs
 from softshadow.gl.texture_coordinates import glTexCoord2f
 from softshadow.gl.vertex_attributes import glNormal3f
 
 Call = tuple[Callable[..., None], tuple[float, ...]]
 NAMES = {glNormal3f: "normal", glTexCoord2f: "texcoord0"}
 SIZES = {"normal": 3, "texcoord0": 2}  # components that these calls set
+
+
+def make_all(calls: Iterable[Call]) -> None:
+    """Make calls."""
+    for call, arguments in calls:
+        call(*arguments)
+
+
+def complete(values: tuple[float, ...]) -> tuple[float, ...]:
+    """Return what the arguments of a call that sets an attribute make of it: two are texture coordinates."""
+    return values if len(values) == 3 else (*values, 0.0, 1.0)
 
 
 class Strip:
@@ -37,10 +48,9 @@ class Strip:
         self.calls: list[Call] = []
         self.positions: list[float] = []
         self.changes: dict[str, list[tuple[int, tuple[float, ...]]]] = {}
-        self._vertices: dict[Any, PairVertices] = {}
 
-    def draw(self) -> None:
-        """Draw the vertices."""
+    def draw(self, vertices: PairVertices) -> None:
+        """Draw the vertices, of which there are arrays."""
         thread.context.vertex_buffer.paused = None  # a primitive of its own can have arrays
         glBegin(self.mode)
         n_made, n_vertices = 0, 0
@@ -50,9 +60,8 @@ class Strip:
             n_vertices += call is glVertex3f
             if n_vertices > self.latest:
                 break
-        if not self._add_rest(thread.context):
-            for call, arguments in self.calls[n_made:]:
-                call(*arguments)
+        if not self._add_rest(thread.context, vertices):
+            make_all(self.calls[n_made:])
         glEnd()
 
     def leave_attributes(self, context: Context) -> None:
@@ -75,7 +84,7 @@ class Strip:
         """The first vertex that has values of all attributes."""
         return max(self.starts.values(), default=0)
 
-    def _add_rest(self, context: Context) -> bool:
+    def _add_rest(self, context: Context, vertices: PairVertices) -> bool:
         """Do what the calls after the vertex `latest` do; return False where that is more than to add numbers."""
         primitive, made = context.primitive, 4 * self.latest + 4
         if primitive is None or len(primitive.positions) != made or primitive.position_size != 3:
@@ -90,58 +99,81 @@ class Strip:
         for name, changes in self.changes.items():
             primitive.changes[name] += changes[numbers[name] :]
             context.set_attribute(name, changes[-1][1])
-        arrays, starts = self.vertices_for(context).arrays, self.starts
+        arrays, starts = vertices.arrays, self.starts
         primitive.arrays = {name: rows for name, rows in arrays.items() if not starts.get(name)}
         return True
 
-    def vertices_for(self, context: Context) -> PairVertices:
-        """Return positions and attributes as arrays in the context's precision."""
-        vertices = self._vertices.get(context.real)
-        if vertices is None:
-            n = len(self.positions)
-            arrays = {"position": context.frozen(self.positions).reshape(-1, 4)}
-            for name, changes in self.changes.items():
-                starts = [0, *(start for start, _ in changes[1:])]  # rows before the first one are replaced
-                ends = [*starts[1:], n]
-                values = [value for _, value in changes]
-                repeated = zip(values, starts, ends, strict=True)
-                rows = [value for value, start, end in repeated for _ in range(start, end, 4)]
-                arrays[name] = context.frozen(rows)
-            vertices = self._vertices[context.real] = PairVertices(arrays, self.starts)
-        return vertices
+    def rows(self, name: str, before: Any) -> list[Any]:
+        """Return the value of an attribute at each vertex; `before` until it is set for the first time."""
+        changes = self.changes[name]
+        starts, ends = [0, *(start for start, _ in changes)], [*(start for start, _ in changes), len(self.positions)]
+        repeated = zip([before, *(value for _, value in changes)], starts, ends, strict=True)
+        return [value for value, start, end in repeated for _ in range(start, end, 4)]
 
 
 class Strips:
-    """Strips of one mode in a row that set the same attributes; all but the first one set them at each vertex."""
+    """Strips in a row whose vertices set the same attributes, with the calls before each of them.
 
-    def __init__(self, first: Strip) -> None:
-        self.strips = [first]
-        self._vertices: dict[Any, list[PairVertices]] = {}
+    The calls before the first strip may set any attribute, those before others only attributes of their vertices.
+    """
 
-    def add(self, strip: Strip) -> bool:
-        """Add a strip; return False, and do nothing, if it is another kind."""
-        first = self.strips[0]
-        if strip.mode != first.mode or strip.sizes != first.sizes or strip.latest:
+    def __init__(self, first: Strip, calls: list[Call]) -> None:
+        self.strips, self._calls = [first], [calls]
+        self._series: dict[Any, PairSeries] = {}
+
+    def add(self, strip: Strip, calls: list[Call]) -> bool:
+        """Add a strip and the calls before it; return False, and do nothing, if it is another kind."""
+        sizes = self.strips[0].sizes
+        if strip.sizes != sizes or not all(NAMES[call] in sizes for call, _ in calls):
             return False
         self.strips.append(strip)
+        self._calls.append(calls)
         return True
 
-    def draw_after(self, similar: SimilarPairs | None, n_done: int) -> int:
-        """Draw similar pairs, from the strip `n_done` on, as many as possible; return how many are drawn then."""
-        if similar is None or similar.sizes != self.strips[0].sizes:
-            return n_done
-        context, before = thread.context, n_done
-        vertices = self._vertices_for(context)
-        n_done += similar.add(self.strips[0].mode, vertices[n_done:] if n_done else vertices)
-        if n_done > before:
-            self.strips[n_done - 1].leave_attributes(context)
-        return n_done
+    def draw(self) -> None:
+        """Draw them, as many as possible without their calls."""
+        context, first, n_done = thread.context, self.strips[0], 0
+        make_all(self._calls[0])
+        similar = first_pairs(context, first.mode, first.sizes, first.starts, len(first.positions) // 4)
+        while n_done < len(self.strips):
+            if n_done and similar is None:
+                similar = similar_pairs(context, first.sizes)
+            if similar is not None:
+                before, n_done = n_done, similar.add(self._series_for(context), n_done)
+                if n_done > before:
+                    self.strips[n_done - 1].leave_attributes(context)
+            if n_done < len(self.strips):
+                self._draw_by_calls(n_done)
+                similar, n_done = None, n_done + 1
 
-    def _vertices_for(self, context: Context) -> list[PairVertices]:
-        vertices = self._vertices.get(context.real)
-        if vertices is None:
-            vertices = self._vertices[context.real] = [strip.vertices_for(context) for strip in self.strips]
-        return vertices
+    def _draw_by_calls(self, number: int) -> None:
+        """Draw a strip by its calls; those before the first one have been made."""
+        if number:
+            make_all(self._calls[number])
+        self.strips[number].draw(self._series_for(thread.context).part(number, number + 1))
+
+    def _series_for(self, context: Context) -> PairSeries:
+        """Return positions and attributes as arrays in the context's precision."""
+        series = self._series.get(context.real)
+        if series is None:
+            strips, first = self.strips, self.strips[0]
+            arrays = {"position": context.frozen([x for strip in strips for x in strip.positions]).reshape(-1, 4)}
+            for name in first.changes:
+                arrays[name] = context.frozen(self._rows(name))
+            counts = [len(strip.positions) // 4 for strip in strips]
+            modes = [strip.mode for strip in strips]
+            series = self._series[context.real] = PairSeries(arrays, modes, counts, first.starts)
+        return series
+
+    def _rows(self, name: str) -> list[Any]:
+        """Return the value of an attribute at each vertex of all strips; any value before the first one is set."""
+        rows: list[Any] = []
+        latest: tuple[float, ...] = self.strips[0].changes[name][0][1]
+        for strip, calls in zip(self.strips, self._calls, strict=True):
+            latest = next((complete(value) for call, value in reversed(calls) if NAMES[call] == name), latest)
+            rows += strip.rows(name, latest)
+            latest = strip.changes[name][-1][1]
+        return rows
 
 
 class Calls:
@@ -153,39 +185,24 @@ class Calls:
 
     def make(self) -> None:
         """Make the calls."""
-        before: Strip | None = None  # drawn by its calls, with only strips and calls like its own since
-        similar: SimilarPairs | None = None
-        for part in self._strips_and_calls:
-            if isinstance(part, Strips):
-                first, n_done = part.strips[0], 0
-                if before is None:
-                    count = len(first.positions) // 4
-                    similar = first_pairs(thread.context, first.mode, first.sizes, first.starts, count)
-                    before = None if similar is None else first
-                while n_done < len(part.strips):
-                    if before is not None and similar is None:
-                        similar = similar_pairs(thread.context, before.sizes)
-                    n_done = part.draw_after(similar, n_done)
-                    if n_done < len(part.strips):
-                        before, similar = part.strips[n_done], None
-                        before.draw()
-                        n_done += 1
-            else:
-                call, arguments = part
-                call(*arguments)
-                if before is not None and NAMES[call] not in before.sizes:
-                    before = similar = None
+        rows, calls_after = self._in_rows
+        for strips in rows:
+            strips.draw()
+        make_all(calls_after)
 
     @cached_property
-    def _strips_and_calls(self) -> list[Strips | Call]:
-        parts: list[Strips | Call] = []
+    def _in_rows(self) -> tuple[list[Strips], list[Call]]:
+        """The strips in rows of a kind, and the calls after the last one."""
+        rows: list[Strips] = []
+        calls: list[Call] = []
         for part in self._parts:
-            last = parts[-1] if parts else None
             if not isinstance(part, Strip):
-                parts.append(part)
-            elif not isinstance(last, Strips) or not last.add(part):
-                parts.append(Strips(part))
-        return parts
+                calls.append(part)
+                continue
+            if not (rows and rows[-1].add(part, calls)):
+                rows.append(Strips(part, calls))
+            calls = []
+        return rows, calls
 
     def begin(self, mode: int) -> None:
         """Add glBegin."""
@@ -204,18 +221,18 @@ class Calls:
 
     def normal(self, x: float, y: float, z: float) -> None:
         """Add glNormal3f."""
-        self._attribute("normal", (x, y, z), (glNormal3f, (x, y, z)))
+        self._attribute("normal", (glNormal3f, (x, y, z)))
 
     def coordinates(self, s: float, t: float) -> None:
         """Add glTexCoord2f."""
-        self._attribute("texcoord0", (s, t, 0.0, 1.0), (glTexCoord2f, (s, t)))
+        self._attribute("texcoord0", (glTexCoord2f, (s, t)))
 
-    def _attribute(self, name: str, value: tuple[float, ...], call: Call) -> None:
+    def _attribute(self, name: str, call: Call) -> None:
         if self._strip is None:
             self._parts.append(call)
             return
         self._strip.calls.append(call)
-        self._strip.changes.setdefault(name, []).append((len(self._strip.positions), value))
+        self._strip.changes.setdefault(name, []).append((len(self._strip.positions), complete(call[1])))
 
 
 __all__ = ["Calls", "Strip"]

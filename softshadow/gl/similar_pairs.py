@@ -1,12 +1,14 @@
 """glBegin ... glEnd pairs in a row that differ in nothing but their vertices, such as the strips of a sphere.
 
 The first pair sets the vertex format: by its calls, unless no vertices are collected before it. The others have the
-same format and the same state, so their draws are copies of one draw with other vertices.
+same format and the same state, so they are one draw of separate triangles or lines; where that has other pixels, their
+draws are copies of one draw with other vertices.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import accumulate, groupby
 
 import numpy as np
 
@@ -15,10 +17,13 @@ from softshadow.context.arrays import SLOTS
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
 from softshadow.gl.materials import follow_color
+from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
 from softshadow.pipeline.commands import Draw, Vertices, draws_like
+from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, separated
 from softshadow.pipeline.mesa.driver_draws import MAX_PAIRS, SEPARATE
 
+MOST_PARTS = 128  # of a series: which pairs are drawn together depends on how many are collected before
 FEWEST = 4  # vertices: Mesa draws some pairs with fewer in another mode
 NO_STARTS: Mapping[str, int] = {}
 
@@ -61,6 +66,40 @@ class PairVertices:
         return complete
 
 
+class PairSeries:
+    """Pairs in a row, whose vertices have the same attributes.
+
+    Parameters
+    ----------
+    arrays : dict                  as of `PairVertices`, of all pairs
+    modes, counts : sequence of int    of each pair: its mode and number of vertices
+    starts : dict                  as of `PairVertices`, for the first pair: the others have values of all attributes
+    """
+
+    def __init__(
+        self,
+        arrays: Mapping[str, np.ndarray],
+        modes: Sequence[int],
+        counts: Sequence[int],
+        starts: Mapping[str, int] = NO_STARTS,
+    ) -> None:
+        self.modes, self.counts = tuple(modes), tuple(counts)
+        self._arrays, self._starts = arrays, starts
+        self._ends = (0, *accumulate(counts))
+        self._parts: dict[tuple[int, int], PairVertices] = {}
+
+    def part(self, start: int, end: int) -> PairVertices:
+        """Return the vertices of the pairs [start, end): the same object for each draw of them."""
+        part = self._parts.get((start, end))
+        if part is None:
+            if len(self._parts) >= MOST_PARTS:
+                self._parts.clear()
+            rows = slice(self._ends[start], self._ends[end])
+            arrays = {name: array[rows] for name, array in self._arrays.items()}
+            part = self._parts[start, end] = PairVertices(arrays, NO_STARTS if start else self._starts)
+        return part
+
+
 class SimilarPairs:
     """Pairs that follow a drawn one without a call between, and whose vertices set the same attributes.
 
@@ -75,38 +114,58 @@ class SimilarPairs:
         self._constants = constant_attributes(context)
         self._draw: Draw | None = None
 
-    def add(self, mode: int, pairs: Sequence[PairVertices]) -> int:
-        """Draw pairs of a mode; return how many: if not all, the next one must be drawn by its calls.
+    def add(self, series: PairSeries, start: int) -> int:
+        """Draw pairs from `start` on; return the end of these: if it is not the last, its calls draw it.
 
-        Afterwards the current values are those before them. Only the first pair may have vertices before its `starts`.
+        Afterwards the current values are those before them.
         """
-        n_done = 0
-        while n_done < len(pairs) and (fitting := self._fitting(mode, pairs[n_done:])):
-            self._draw_all(mode, fitting)
-            n_done += len(fitting)
-        return n_done
+        while (end := self._end_of_fitting(series, start)) > start:
+            self._draw_all(series, start, end)
+            start = end
+        return start
 
-    def _fitting(self, mode: int, pairs: Sequence[PairVertices]) -> list[PairVertices]:
-        """Return the first ones that need not be drawn by their calls, and fit into the vertex buffer."""
-        if mode in SEPARATE:
-            return []
-        buffer, fitting = self._context.vertex_buffer, []
+    def _end_of_fitting(self, series: PairSeries, start: int) -> int:
+        """Return the end of those that need not be drawn by their calls, and fit into the vertex buffer."""
+        buffer, end = self._context.vertex_buffer, start
         n_vertices, most = buffer.n_vertices, buffer.room - 1
-        for pair in pairs[: MAX_PAIRS - buffer.pairs.n_pairs]:
-            n_vertices += pair.count
-            if pair.count < FEWEST or n_vertices >= most:
+        for count in series.counts[start : start + MAX_PAIRS - buffer.pairs.n_pairs]:
+            n_vertices += count
+            if count < FEWEST or n_vertices >= most or series.modes[end] in SEPARATE:
                 break
-            fitting.append(pair)
-        return fitting
+            end += 1
+        return end
 
-    def _draw_all(self, mode: int, pairs: Sequence[PairVertices]) -> None:
-        constants = constant_attributes(self._context) if pairs[0].has_late else self._constants
-        vertices = [pair.with_constants(constants) for pair in pairs]
-        if self._draw is None:
-            self._draw = self._context.draw_command(mode, vertices[0])
-        elif self._draw.mode != mode:
-            self._draw = self._draw._replace(mode=mode)
-        self._context.vertex_buffer.draw_pairs(draws_like(self._draw, vertices))
+    def _draw_all(self, series: PairSeries, start: int, end: int) -> None:
+        buffer, draws, modes = self._context.vertex_buffer, [], series.modes[start:end]
+        first = self._draw_of(modes[0], series.part(start, end))
+        joins = can_be_joined(self._context)
+        joins_modes = joins and can_be_separated(first) and not buffer.driver_draw.is_lost
+        if joins_modes and STRIPS.issuperset(modes):
+            draws.append(separated(first, series.counts[start:end], modes))
+        else:
+            for mode, same in groupby(range(start, end), series.modes.__getitem__):
+                draws += self._draws_of(mode, series, list(same), joins)
+        buffer.draw_pairs(draws, modes, series.counts[start:end])
+
+    def _draws_of(self, mode: int, series: PairSeries, numbers: Sequence[int], joins: bool) -> list[Draw]:
+        """Return the draws of pairs in a row of one mode."""
+        start, end = numbers[0], numbers[-1] + 1
+        draw = self._draw_of(mode, series.part(start, end))
+        if joins and mode in SEPARABLE and can_be_separated(draw):
+            return [separated(draw, series.counts[start:end])]
+        parts = [series.part(number, number + 1) for number in numbers]
+        return draws_like(draw, [self._with_constants(part) for part in parts])
+
+    def _draw_of(self, mode: int, part: PairVertices) -> Draw:
+        """Return a draw of these vertices under the current state."""
+        vertices, draw = self._with_constants(part), self._draw
+        if draw is None:
+            draw = self._draw = self._context.draw_command(mode, vertices)
+            return draw
+        return draw._replace(mode=mode, vertices=vertices)
+
+    def _with_constants(self, part: PairVertices) -> Vertices:
+        return part.with_constants(constant_attributes(self._context) if part.has_late else self._constants)
 
 
 def first_pairs(
@@ -172,4 +231,4 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     return SimilarPairs(context, sizes)
 
 
-__all__ = ["NO_STARTS", "PairVertices", "SimilarPairs", "first_pairs", "similar_pairs"]
+__all__ = ["PairSeries", "PairVertices", "SimilarPairs", "first_pairs", "similar_pairs"]

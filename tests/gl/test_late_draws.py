@@ -302,6 +302,6 @@ def test_joined_loops_are_one_late_draw_of_lines(context):
 def test_a_quadric_is_drawn_after_them(context):
     triangle()
     gl.gluSphere(gl.gluNewQuadric(), 0.5, 24, 5)
-    modes = [draw.mode for draw in context.frame.commands]
-    assert modes[0] == gl.GL_TRIANGLES
-    assert len(modes) > 3
+    before, sphere = context.frame.commands
+    assert (before.mode, before.pairs_mode) == (gl.GL_TRIANGLES, 0)
+    assert sphere.pairs_mode == gl.GL_QUAD_STRIP

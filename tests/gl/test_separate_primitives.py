@@ -16,7 +16,7 @@ from softshadow.pipeline.geometry.assembly import assemble, edge_flags, edges_of
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
 from softshadow.pipeline.geometry.separate import SEPARABLE, separate_indices
 
-MODES = (*SEPARABLE, gl.GL_QUADS, gl.GL_QUAD_STRIP, gl.GL_POINTS)
+MODES = (*SEPARABLE, gl.GL_QUADS, gl.GL_POINTS)
 FACES = (gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
 FILLS = (gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)
 SWITCHES = (
@@ -128,15 +128,15 @@ def test_indices_are_those_of_each_primitive(mode: int) -> None:
         corners = assemble_lines(mode, count) if mode in LINES else assemble(mode, count).corners
         expected += (corners + start).ravel().tolist()
         start += count
-    assert separate_indices(mode, counts).tolist() == expected
+    assert separate_indices((mode,) * len(counts), counts).tolist() == expected
     if mode not in LINES:  # the last corner gives the flat colour, as of separate triangles
-        triangles = assemble(mode, 7)
+        triangles = assemble(mode, 8)
         assert triangles.provoking.tolist() == triangles.corners[:, 2].tolist()
 
 
 def test_edges_of_joined_polygons_are_those_of_each() -> None:
     counts = (5, 3, 2, 4)
-    corners = separate_indices(gl.GL_POLYGON, counts).reshape(-1, 3)
+    corners = separate_indices((gl.GL_POLYGON,) * len(counts), counts).reshape(-1, 3)
     expected = np.concatenate([edge_flags(gl.GL_POLYGON, max(count - 2, 0)) for count in counts])
     assert edges_of_joined_polygons(corners).tolist() == expected.tolist()
     assert edges_of_joined_polygons(corners[:0]).shape == (0, 3)

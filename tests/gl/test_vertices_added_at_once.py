@@ -12,18 +12,31 @@ from softshadow.context import vertex_buffer
 from softshadow.gl import evaluators, immediate
 from softshadow.gl.shape_calls import Calls, Strip
 from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, lines_or_points_of
+from softshadow.pipeline.geometry.lines import LINES
+from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
 ROUNDS = 60
 
 
 @pytest.fixture(autouse=True)
 def _pairs_are_drawn_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Strips that come from calls become one draw (test_separate_primitives.py); those added at once do not."""
+    """Strips that come from calls are draws of their own; those added at once become one draw."""
     monkeypatch.setattr(immediate, "SEPARABLE", {})
 
 
-def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
-    """Return modes, vertices and materials of all draws of a program, and its attributes and vertex buffer after it."""
+def corners_of(command: Draw) -> np.ndarray:
+    """Return the vertices (T, 3), (L, 2) or (P, 1) of the primitives of a draw that nothing cuts."""
+    if command.mode == gl.GL_POINTS or command.mode in LINES:
+        return lines_or_points_of(command)
+    return assembled_triangles(command, np.zeros(len(command.vertices.position), bool)).corners
+
+
+def draws_of(program: Callable[[], None]) -> list[Any]:
+    """Return the attributes and the vertex buffer after a program, and what its draws draw.
+
+    That is, of each draw or of several strips in a row under the same state, the corners of all primitives.
+    """
     with gl.create_context(16, 12) as context:
         program()
         buffer = context.vertex_buffer
@@ -32,13 +45,19 @@ def draws_of(program: Callable[[], None]) -> list[tuple[Any, ...]]:
         current = tuple(
             gl.glGetFloatv(getattr(gl, f"GL_CURRENT_{name}")) for name in ("COLOR", "NORMAL", "TEXTURE_COORDS")
         )
-    drawn: list[tuple[Any, ...]] = [tuple(np.asarray(value).tobytes() for value in current), collected]
+    drawn: list[Any] = [tuple(np.asarray(value).tobytes() for value in current), (*collected, buffer.driver_draw)]
+    last: tuple[Any, ...] = ()
     for command in commands:
-        vertices, lighting = command.vertices, command.state.lighting
+        vertices, lighting, corners = command.vertices, command.state.lighting, corners_of(command)
         arrays = (vertices.position, vertices.color, vertices.normal, vertices.texcoords[0], vertices.edges)
-        rows = (None if array is None else (array.shape, array.tobytes()) for array in (*arrays, command.indices))
-        places = command.offset_mode, command.stipple_place
-        drawn.append((command.mode, *places, lighting.color_material, lighting.front, *rows))
+        rows = [b"" if array is None else array[corners].tobytes() for array in arrays]
+        places, width = (command.offset_mode, command.stipple_place), corners.shape[1]
+        state = command.called_mode in SEPARATE, width, *places, lighting.color_material, lighting.front
+        if state == last and command.called_mode not in SEPARATE:
+            drawn[-1] = [before + each for before, each in zip(drawn[-1], rows, strict=True)]
+        else:
+            drawn += [state, rows]
+        last = state
     return drawn
 
 
@@ -181,7 +200,7 @@ def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -
         draw(lines)
 
     at_once = draws_of(partial(program, Calls.make))
-    assert len({stipple_place for _, _, stipple_place, *_ in at_once[2:]}) > 1
+    assert len({stipple_place for _, _, _, stipple_place, *_ in at_once[2::2]}) > 1
     assert at_once == draws_of(partial(program, call_by_call))
 
 
@@ -308,9 +327,11 @@ def test_meshes_are_kept_only_where_all_they_depend_on_is_equal() -> None:
             gl.glMapGrid2f(3, 0, 1, 2, 0, 1)
             for call in calls:
                 call()
+            before = [command for command in context.frame.commands if isinstance(command, Draw)]
             gl.glEvalMesh2(gl.GL_FILL, 0, 3, 0, 2)
-            draws = [command for command in context.frame.commands if isinstance(command, Draw)]
-        return [draw.vertices.position.tobytes() + draw.vertices.normal.tobytes() for draw in draws[-2:]]
+            draws = [command.vertices for command in context.frame.commands if isinstance(command, Draw)]
+        mesh = draws[len(before) :]
+        return [b"".join([getattr(each, name).tobytes() for each in mesh]) for name in ("position", "normal")]
 
     rng = np.random.default_rng(4)
     maps = [rng.normal(size=(3, 4, 3)).astype(np.float32) for _ in range(2)]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.pipeline.mesa.quad_cuts import quads_and_stride
+from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment, quads_and_stride
 
 
 class Triangles(NamedTuple):
@@ -106,6 +106,44 @@ def edges_of_joined_polygons(corners: np.ndarray) -> np.ndarray:
     first = corners[:, 2]
     is_last = np.append(first[1:] != first[:-1], True)[: len(corners)]
     return np.stack([np.ones(len(corners), bool), is_last, corners[:, 0] == first + 1], axis=1).view(np.uint8)
+
+
+def quads_of_joined_strips(corners: np.ndarray) -> np.ndarray:
+    """Return the first triangles (Q,) of the quads of quad strips, among the triangles (T, 3) of strips and fans.
+
+    The corners are those without clipping; no triangles of other strips are numbered like a quad's.
+    """
+    pattern = np.array(QUAD_OF_STRIP, np.int32)[:, :3]
+    pairs = np.stack([corners[:-1], corners[1:]], axis=1)
+    return np.flatnonzero((pairs - pairs[:, :1, :1] == pattern).all(axis=(1, 2)))
+
+
+def edges_of_joined_strips(corners: np.ndarray) -> np.ndarray:
+    """Return what `edge_flags` returns of each strip or fan, for the triangles (T, 3) of those in a row."""
+    edges, quads = np.ones((len(corners), 3), np.uint8), quads_of_joined_strips(corners)
+    edges[quads, 1] = edges[quads + 1, 2] = 0
+    return edges
+
+
+def order_of_joined_strips(corners: np.ndarray, needs_clipping: np.ndarray, in_stages: bool) -> np.ndarray:
+    """Return the order of the triangles (T, 3) of strips and fans in a row: (T,), as in a draw of each.
+
+    The corners are those without clipping. `needs_clipping` (V,) bool, of all vertices; `in_stages`: the triangles pass
+    Mesa's stages, and all quads are cut like clipped ones.
+    """
+    order = np.arange(len(corners))
+    if not (in_stages or needs_clipping.any()):
+        return order
+    quads = quads_of_joined_strips(corners)
+    if not in_stages:
+        first = corners[quads, 0]  # vertex of each quad
+        begins = np.flatnonzero(np.diff(first, prepend=-9) != 2)
+        counts = np.diff(begins, append=len(first))
+        strips = [slice(start, start + 2 * count + 2) for start, count in zip(first[begins], counts, strict=True)]
+        clipped = [in_clipped_segment(gl.GL_QUAD_STRIP, needs_clipping[strip], None) for strip in strips]
+        quads = quads[np.concatenate([np.empty(0, bool), *clipped])]
+    order[quads], order[quads + 1] = quads + 1, quads
+    return order
 
 
 def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:

@@ -13,6 +13,8 @@ from softshadow.pipeline.geometry.assembly import (
     assemble,
     edge_flags,
     edges_of_joined_polygons,
+    edges_of_joined_strips,
+    order_of_joined_strips,
     separate_triangles,
     through_indices,
 )
@@ -70,7 +72,11 @@ def assembled_triangles(
     """
     indices, first = command.indices, first_provokes(command.state)
     if command.mode == gl.GL_TRIANGLES and indices is not None:
-        return separate_triangles(indices, first)
+        triangles = separate_triangles(indices, first)
+        if command.pairs_mode != gl.GL_QUAD_STRIP:
+            return triangles
+        order = order_of_joined_strips(triangles.corners, needs_clipping, passes_stages(command.state))
+        return Triangles(triangles.corners[order], triangles.provoking[order])
     n_vertices = len(needs_clipping) if indices is None else len(indices)
     if command.mode not in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
         if command.mode == gl.GL_TRIANGLE_FAN and n_vertices == 4 and not across:
@@ -100,6 +106,8 @@ def drawn_edges(command: Draw, corners: np.ndarray) -> np.ndarray:
     flags = command.vertices.edges
     if command.pairs_mode == gl.GL_POLYGON:
         edges = edges_of_joined_polygons(corners)
+    elif command.pairs_mode == gl.GL_QUAD_STRIP and command.indices is not None:
+        edges = edges_of_joined_strips(command.indices.reshape(-1, 3))  # where its quads are before they are cut
     else:
         edges = edge_flags(command.mode, len(corners), first_provokes(command.state))
     return edges if flags is None else np.ascontiguousarray(edges & flags[corners].astype(np.uint8))

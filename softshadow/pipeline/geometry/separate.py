@@ -1,7 +1,8 @@
 """Strips, fans, loops and polygons as separate triangles or lines: many of them are one draw then.
 
 The primitives of a draw reach the setup as triangles or lines in any case. Those of a draw with these indices are the
-same, with the same corners in the same order, which decides the last bits of interpolated values.
+same, with the same corners in the same order, which decides the last bits of interpolated values. Only the triangles
+of quads of strips change places in pairs where a strip is clipped (`assembly.order_of_joined_strips`).
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 
 SEPARABLE = {
     gl.GL_TRIANGLE_STRIP: gl.GL_TRIANGLES, gl.GL_TRIANGLE_FAN: gl.GL_TRIANGLES, gl.GL_POLYGON: gl.GL_TRIANGLES,
-    gl.GL_LINE_STRIP: gl.GL_LINES, gl.GL_LINE_LOOP: gl.GL_LINES,
+    gl.GL_QUAD_STRIP: gl.GL_TRIANGLES, gl.GL_LINE_STRIP: gl.GL_LINES, gl.GL_LINE_LOOP: gl.GL_LINES,
 }  # fmt: skip
+STRIPS = frozenset((gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUAD_STRIP))  # with each other, too
 MOST_KNOWN = 64  # arrays of indices that are kept: a program draws the same primitives in every frame
 
 
@@ -38,15 +40,19 @@ def can_be_separated(command: Draw) -> bool:
     return command.mode in LINES or front == back
 
 
-def separated(command: Draw, counts: tuple[int, ...]) -> Draw:
+def separated(command: Draw, counts: tuple[int, ...], modes: tuple[int, ...] = ()) -> Draw:
     """Return a draw of separate primitives, for one of several primitives of a mode in `SEPARABLE`.
 
-    `counts` are the numbers of vertices of these, one after the other; a single primitive is left as it is.
+    `counts` are the numbers of vertices of these, one after the other; a single primitive is left as it is. `modes`
+    are those of each in `STRIPS`, if they are not all of the draw's mode.
     """
     if len(counts) == 1:
         return command
+    pairs_mode = gl.GL_QUAD_STRIP if gl.GL_QUAD_STRIP in modes else command.mode
     return command._replace(
-        mode=SEPARABLE[command.mode], indices=separate_indices(command.mode, counts), pairs_mode=command.mode
+        mode=SEPARABLE[command.mode],
+        indices=separate_indices(modes or (command.mode,) * len(counts), counts),
+        pairs_mode=pairs_mode,
     )
 
 
@@ -58,9 +64,9 @@ def is_separated(command: Draw) -> bool:
 
 
 @lru_cache(MOST_KNOWN)
-def separate_indices(mode: int, counts: tuple[int, ...]) -> np.ndarray:
-    """Return the indices (N,) int32 of separate triangles or lines, read-only, for primitives of a mode."""
-    primitives = [_indices_of_one(mode, count) for count in counts]
+def separate_indices(modes: tuple[int, ...], counts: tuple[int, ...]) -> np.ndarray:
+    """Return the indices (N,) int32 of separate triangles or lines, read-only, for primitives of these modes."""
+    primitives = [_indices_of_one(mode, count) for mode, count in zip(modes, counts, strict=True)]
     starts = np.cumsum((0, *counts[:-1]), dtype=np.int32)
     indices = np.concatenate(primitives) + np.repeat(starts, [len(each) for each in primitives])
     indices.setflags(write=False)

@@ -12,6 +12,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     INDEX_END,
     INDEX_START,
     INDEXED,
+    JOINED_STRIPS,
     MODE,
     START,
 )
@@ -92,8 +93,62 @@ def assemble_draws(numbers, indices, codes, triangles, provoking):
             for i in range(1, n - 1):
                 write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, 0, 0)
                 row += 1
+        elif mode == JOINED_STRIPS:
+            row = write_joined_strips(numbers, indices, codes, d, n // 3, triangles, provoking, row)
         else:
             row = write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row)
+    return row
+
+
+@kernel
+def is_quad_of_strip(numbers, indices, d, i, last):
+    """Return whether the indices from `i` on, before `last`, are those of a quad of a strip, as it is without clipping.
+
+    Equals `geometry.assembly.quads_of_joined_strips`.
+    """
+    at = numbers[d, INDEX_START] + i
+    if i + 6 > last:
+        return False
+    a = indices[at]
+    one = indices[at + 1] == a + 1 and indices[at + 2] == a + 3
+    return one and indices[at + 3] == a + 2 and indices[at + 4] == a and indices[at + 5] == a + 3
+
+
+@kernel
+def write_joined_strips(numbers, indices, codes, d, n_triangles, triangles, provoking, row):
+    """Write the separate triangles of strips in a row, whose indices are those without clipping; return the next row.
+
+    Equals `geometry.assembly.order_of_joined_strips`.
+    """
+    in_stages, step = numbers[d, ACROSS] == IN_STAGES, SEGMENT - 2  # segments share two vertices
+    strip, before, n_used, segment_end, is_clipped = 0, -9, 0, 0, False
+    i, end = 0, 3 * n_triangles
+    while i < end:
+        if not is_quad_of_strip(numbers, indices, d, i, end):
+            write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, i + 2, i + 2)
+            row += 1
+            i += 3
+            continue
+        first = vertex_at(numbers, indices, d, i)
+        if first != before + 2:
+            strip, n_used, segment_end = first, 4, 0
+            k = i + 6
+            while is_quad_of_strip(numbers, indices, d, k, end) and (
+                vertex_at(numbers, indices, d, k) == strip + n_used - 2
+            ):
+                n_used += 2
+                k += 6
+        before = first
+        if first - strip >= segment_end:
+            segment_end = (first - strip) // step * step + step
+            is_clipped = False
+            for v in range(strip + segment_end - step, strip + min(segment_end + 2, n_used)):
+                is_clipped = is_clipped or codes[v] != 0
+        one, two = (i + 3, i) if is_clipped or in_stages else (i, i + 3)
+        write_triangle(numbers, indices, d, triangles, provoking, row, one, one + 1, one + 2, one + 2)
+        write_triangle(numbers, indices, d, triangles, provoking, row + 1, two, two + 1, two + 2, two + 2)
+        row += 2
+        i += 6
     return row
 
 

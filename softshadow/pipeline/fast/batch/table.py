@@ -19,6 +19,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     END,
     FLOATS,
     IN_STAGES,
+    JOINED_STRIPS,
     MODELVIEW,
     NORMAL,
     NUMBERS,
@@ -34,6 +35,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
 from softshadow.state import Lighting, MaterialState, Viewport
+from softshadow.tokens import GL_QUAD_STRIP
 
 BATCH_KERNELS = KernelGroup("batch")
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
@@ -182,7 +184,8 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
             equal = lights
         row = len(lightings) - 1
         kind, cut = draw.modelview_kind, across or indexed
-        table += (start, end, draw.mode, index_start, index_end, indexed, kind, row, cut, view)
+        mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
+        table += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view)
         start, index_start = end, index_end
     return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
 

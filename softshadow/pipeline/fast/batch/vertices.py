@@ -31,8 +31,10 @@ from softshadow.programs.lighting import SMALLEST_SCALE
 MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 40, 56, 72
 # columns of a draw's numbers: vertices and indices [start, end), how its modelview matrix is inverted; ACROSS: 1 if
 # all its quads are cut along the other diagonal, IN_STAGES if all are cut like clipped ones; VIEW: its viewport
+# MODE is JOINED_STRIPS for separate triangles of several strips, with quad strips among them
 START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, VIEW, NUMBERS = range(11)
 IN_STAGES = 2
+JOINED_STRIPS = -1
 # columns of a texture unit of a draw: its matrix, the constant coordinates, whether the matrix is the identity
 UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
 # how a texture coordinate is generated; from EYE_LINEAR on from the eye position, from SPHERE_MAP on from the normal
