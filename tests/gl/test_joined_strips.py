@@ -1,0 +1,145 @@
+"""Strips of a shape, whatever their modes, become one draw of separate triangles, with the pixels of single strips."""
+
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+from softshadow import gl
+from softshadow.gl import similar_pairs
+from softshadow.gl.shape_calls import Calls
+from softshadow.pipeline import use_short_cuts
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fast.batch.assembly import assemble_draws
+from softshadow.pipeline.fast.batch.vertices import (
+    ACROSS,
+    END,
+    IN_STAGES,
+    INDEX_END,
+    INDEX_START,
+    INDEXED,
+    JOINED_STRIPS,
+    MODE,
+    NUMBERS,
+    START,
+)
+from softshadow.pipeline.geometry.assembly import assemble, edge_flags, edges_of_joined_strips, order_of_joined_strips
+from softshadow.pipeline.geometry.separate import STRIPS, separate_indices
+from softshadow.pipeline.mesa.quad_cuts import SEGMENT, in_clipped_segment
+
+MODES = tuple(sorted(STRIPS))
+SWITCHES = (
+    gl.GL_CULL_FACE,
+    gl.GL_LIGHTING,
+    gl.GL_COLOR_MATERIAL,
+    gl.GL_CLIP_PLANE0,
+    gl.GL_BLEND,
+    gl.GL_POLYGON_STIPPLE,
+)
+
+
+def random_shape(random: Random) -> Calls:
+    """Return strips of several modes, many of them folded and clipped; some begin with the normal set before them."""
+    calls = Calls()
+    for _ in range(random.randint(1, 6)):
+        if random.random() < 0.5:
+            calls.normal(*[random.uniform(-1.0, 1.0) for _ in range(3)])
+        calls.begin(random.choice(MODES))
+        late = random.random() < 0.4
+        reach = random.choice((0.9, 1.6))
+        for vertex in range(random.choice((4, 5, 6, 9, 12))):
+            if vertex or not late:
+                calls.normal(*[random.uniform(-1.0, 1.0) for _ in range(3)])
+            calls.vertex(*[random.uniform(-reach, reach) for _ in range(3)])
+        calls.end()
+    return calls
+
+
+def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
+    """Return the buffers that random shapes under random states leave, and their draws."""
+    random = Random(seed)
+    with gl.create_context(24, 18) as context:
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glEnable(gl.GL_STENCIL_TEST)
+        gl.glStencilOp(gl.GL_KEEP, gl.GL_INVERT, gl.GL_INCR)
+        gl.glEnable(gl.GL_LIGHT0)
+        gl.glPolygonStipple(np.arange(128, dtype=np.uint8).tobytes())
+        gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.5, 0.25, 0.5))
+        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+        for _ in range(5):
+            random.choice((gl.glEnable, gl.glDisable))(random.choice(SWITCHES))
+            if random.random() < 0.4:
+                gl.glShadeModel(random.choice((gl.GL_FLAT, gl.GL_SMOOTH)))
+            if random.random() < 0.4:
+                faces = random.choice((gl.GL_FRONT, gl.GL_FRONT_AND_BACK, gl.GL_FRONT_AND_BACK))
+                gl.glPolygonMode(faces, random.choice((gl.GL_FILL, gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)))
+            gl.glColor3f(random.random(), random.random(), random.random())
+            random_shape(random).make()
+        gl.glFinish()
+        window = context.storage.window
+        buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
+        return buffers, [command for command in context.frame.commands if isinstance(command, Draw)]
+
+
+@pytest.mark.parametrize("seeds", [range(start, start + 20) for start in range(0, 120, 20)], ids=str)
+def test_strips_of_a_shape_have_the_pixels_of_single_ones(seeds: range, monkeypatch: pytest.MonkeyPatch) -> None:
+    joined = {seed: drawn(seed) for seed in seeds}
+    of_modes = [draw for _, draws in joined.values() for draw in draws if draw.pairs_mode == gl.GL_QUAD_STRIP]
+    assert len(of_modes) > len(seeds)
+    with use_short_cuts(False):
+        assert {seed: drawn(seed)[0] for seed in seeds[:5]} == {seed: joined[seed][0] for seed in seeds[:5]}
+    monkeypatch.setattr(similar_pairs, "SEPARABLE", {})
+    monkeypatch.setattr(similar_pairs, "STRIPS", frozenset())
+    for seed in seeds:
+        buffers, draws = drawn(seed)
+        assert not any(draw.pairs_mode for draw in draws)
+        assert len(draws) >= len(joined[seed][1])
+        assert buffers == joined[seed][0], seed
+
+
+def kernel_triangles(indices: np.ndarray, needs_clipping: np.ndarray, across: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the triangles of joined strips behind two vertices of another draw, and their provoking vertices."""
+    numbers = np.zeros((1, NUMBERS), np.int64)
+    numbers[0, [START, END, INDEX_START, INDEX_END]] = 2, 2 + len(needs_clipping), 1, 1 + len(indices)
+    numbers[0, [MODE, INDEXED, ACROSS]] = JOINED_STRIPS, 1, across
+    codes = np.concatenate([np.zeros(2, bool), needs_clipping]).astype(np.int32)
+    triangles, provoking = np.empty((len(indices) // 3, 3), np.int32), np.empty(len(indices) // 3, np.int32)
+    before = np.concatenate([np.array([7], np.int32), indices])
+    assert assemble_draws(numbers, before, codes, triangles, provoking) == len(triangles)
+    return triangles - 2, provoking - 2
+
+
+@pytest.mark.parametrize("in_stages", [False, True])
+@pytest.mark.parametrize("seed", range(12))
+def test_triangles_are_those_of_each_strip_in_their_order(seed: int, in_stages: bool) -> None:
+    random, rng = Random(seed), np.random.default_rng(seed)
+    modes = (*random.choices(MODES, k=8), gl.GL_QUAD_STRIP)
+    counts = (*random.choices((0, 2, 3, 4, 5, 6, 7, 8, 13), k=8), 2 * SEGMENT + 9)
+    needs_clipping = rng.random(sum(counts)) < (0.0, 0.0002, 0.05)[seed % 3]
+    corners, provoking, start = [], [], 0
+    for mode, count in zip(modes, counts, strict=True):
+        clipped = (
+            in_clipped_segment(mode, needs_clipping[start : start + count], None) if mode == gl.GL_QUAD_STRIP else None
+        )
+        strip = assemble(mode, count, np.ones_like(clipped) if in_stages and clipped is not None else clipped)
+        corners.append(strip.corners + start)
+        provoking.append(strip.provoking + start)
+        start += count
+    expected: Any = np.concatenate(corners), np.concatenate(provoking)
+    indices = separate_indices(modes, counts)
+    separate = indices.reshape(-1, 3)
+    ordered = separate[order_of_joined_strips(separate, needs_clipping, in_stages)]
+    np.testing.assert_array_equal(ordered, expected[0])
+    np.testing.assert_array_equal(ordered[:, 2], expected[1])  # the last corner provokes
+    ours = kernel_triangles(indices, needs_clipping, IN_STAGES if in_stages else 1)
+    np.testing.assert_array_equal(ours[0], expected[0])
+    np.testing.assert_array_equal(ours[1], expected[1])
+
+
+def test_edges_are_those_of_each_strip() -> None:
+    modes, counts = (gl.GL_TRIANGLE_FAN, gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_STRIP, gl.GL_QUAD_STRIP), (5, 8, 6, 4)
+    numbers = (3, 6, 4, 2)
+    expected = np.concatenate([edge_flags(mode, number) for mode, number in zip(modes, numbers, strict=True)])
+    edges = edges_of_joined_strips(separate_indices(modes, counts).reshape(-1, 3))
+    assert edges.tolist() == expected.tolist()
