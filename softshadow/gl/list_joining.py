@@ -16,7 +16,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context.arrays import POSITION
-from softshadow.gl.list_primitives import ListPrimitive
+from softshadow.gl.list_primitives import ListPrimitive, joined_primitive
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
 LEAST = {  # vertices: with fewer, the last one is repeated
@@ -115,14 +115,7 @@ def _has_two_strips(run: list[ListPrimitive]) -> bool:
 
 def _primitive(part: Part, first: int) -> ListPrimitive:
     """Return a part as one primitive; `first` is the number of its first vertex in the run."""
-    members, last = part.members, part.members[-1]
-    rows = {slot: np.concatenate([member.rows[slot] for member in members]) for slot in last.rows}
-    indices = np.array(part.indices, np.int32) - np.int32(first)
-    for array in (*rows.values(), indices):
-        array.setflags(write=False)
-    calls = [call for member in members for call in member.calls]
-    starts, leaves_values = members[0].starts, last.leaves_values
-    return ListPrimitive(calls, part.mode, rows, starts, last.last, last.sizes, indices, leaves_values=leaves_values)
+    return joined_primitive(part.members, part.mode, np.array(part.indices, np.int32) - np.int32(first))
 
 
 __all__ = ["completed", "joined"]

@@ -6,8 +6,9 @@ draws them at once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import groupby
 from typing import Any
 
@@ -22,7 +23,10 @@ from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
+from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.geometry.separate import STRIPS, can_be_separated, pairs_mode_of, separate_indices
+from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with
@@ -72,14 +76,18 @@ class ListPrimitive:
             return
         self.draw(context)
 
-    def draw(self, context: Context) -> tuple[Draw, ConstantSet]:
-        """Draw the primitive; return the draw, and the values of the attributes that the list does not set."""
+    def draw(self, context: Context) -> None:
+        """Draw the primitive, between others."""
+        constants = self.begin_draw(context)
+        context.draw(self.mode, self.vertices(constants), self.indices)
+
+    def begin_draw(self, context: Context) -> ConstantSet:
+        """Make the last attributes current; return the values of those that the list does not set."""
         if context.pending.names:
             context.reset_attributes()
         constants = constant_attributes(context, self.carried_units)
-        vertices = self.vertices(constants)
         self.make_current(context)
-        return context.draw(self.mode, vertices, self.indices), constants
+        return constants
 
     def make_current(self, context: Context) -> None:
         """Make the last attributes of the primitive current, if it leaves them; none are pending before.
@@ -133,7 +141,8 @@ class ListPrimitive:
 class SimilarPrimitives:
     """Primitives in a row of a list that set the same attributes at their first vertices, but no colour.
 
-    No colour, as materials may follow it. So their draws differ in modes and vertices only.
+    No colour, as materials may follow it. So their draws differ in modes and vertices only. Strips and fans are one
+    draw of separate triangles, where that has the same pixels.
     """
 
     primitives: list[ListPrimitive]
@@ -144,10 +153,59 @@ class SimilarPrimitives:
         if _is_left_out(context) or not _is_between_primitives(context):
             carry_out(self.primitives)
             return
-        draw, constants = self.primitives[0].draw(context)
-        context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in self.primitives[1:]])
+        first, others, separate = self.primitives[0], self.primitives[1:], self._separate
+        constants = first.begin_draw(context)
+
+        def joined(draw: Draw) -> Draw:
+            modes = [each.mode for each in self.primitives]
+            if separate is None or not (can_be_joined(context) and can_be_separated(draw, modes)):
+                return draw
+            vertices = context.with_current(separate.vertices(constants))
+            return draw._replace(
+                mode=gl.GL_TRIANGLES, vertices=vertices, indices=separate.indices, pairs_mode=pairs_mode_of(modes)
+            )
+
+        draw = context.draw(first.mode, first.vertices(constants), first.indices, joined)
+        if not draw.pairs_mode:
+            context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in others])
         self.primitives[-1].make_current(context)
         context.flush()
+
+    @cached_property
+    def _separate(self) -> ListPrimitive | None:
+        """All of them as separate triangles; None if they cannot be."""
+        if not all(_can_be_separate(primitive) for primitive in self.primitives):
+            return None
+        joined = joined_primitive(self.primitives, gl.GL_TRIANGLES, np.empty(0, np.int32))
+        parts, start = [], 0
+        for primitive in self.primitives:
+            indices = primitive.indices + np.int32(start)
+            parts.append(indices[separate_indices((primitive.mode,), (len(indices),))])
+            start += len(primitive.rows[POSITION])
+        joined.indices = np.concatenate(parts)
+        joined.indices.setflags(write=False)
+        return joined
+
+
+def _can_be_separate(primitive: ListPrimitive) -> bool:
+    """Return whether a primitive may become separate triangles.
+
+    Mesa looks whether a quad strip is clipped at all vertices that the indices span, so all of them must be in quads.
+    """
+    count = len(primitive.indices)
+    all_in_quads = primitive.mode != gl.GL_QUAD_STRIP or (count % 2 == 0 and count <= INDEXED_SEGMENT)
+    return primitive.mode in STRIPS and all_in_quads
+
+
+def joined_primitive(members: Sequence[ListPrimitive], mode: int, indices: np.ndarray) -> ListPrimitive:
+    """Return primitives in a row as one: its `indices` are those of a mode in the vertices of all members."""
+    last = members[-1]
+    rows = {slot: np.concatenate([member.rows[slot] for member in members]) for slot in last.rows}
+    for array in (*rows.values(), indices):
+        array.setflags(write=False)
+    calls = [call for member in members for call in member.calls]
+    starts, leaves_values = members[0].starts, last.leaves_values
+    return ListPrimitive(calls, mode, rows, starts, last.last, last.sizes, indices, leaves_values=leaves_values)
 
 
 def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
@@ -200,4 +258,4 @@ def carry_out(calls: Iterable[Callable[[], Any]]) -> None:
         raise first_error
 
 
-__all__ = ["ListPrimitive", "carry_out", "with_similar_joined"]
+__all__ = ["ListPrimitive", "carry_out", "joined_primitive", "with_similar_joined"]

@@ -139,8 +139,7 @@ class SimilarPairs:
         buffer, draws, modes = self._context.vertex_buffer, [], series.modes[start:end]
         first = self._draw_of(modes[0], series.part(start, end))
         joins = can_be_joined(self._context)
-        joins_modes = joins and can_be_separated(first) and not buffer.driver_draw.is_lost
-        if joins_modes and STRIPS.issuperset(modes):
+        if joins and STRIPS.issuperset(modes) and can_be_separated(first, modes) and not buffer.driver_draw.is_lost:
             draws.append(separated(first, series.counts[start:end], modes))
         else:
             for mode, same in groupby(range(start, end), series.modes.__getitem__):

@@ -89,7 +89,8 @@ class Draw(NamedTuple):
     polygons get if an earlier draw has decided it, else 0. `stipple_place` is the place in the line stipple before the
     draw: Mesa does not begin it anew where the first line of a strip is clipped away. `origin` tells what the
     primitives were made from. Where several strips, fans, loops or polygons are drawn as separate triangles or lines,
-    `pairs_mode` is the mode of the glBegin ... glEnd pairs that they come from, else 0. `shown_at` is (x, y, zoom x,
+    `pairs_mode` is the mode of the glBegin ... glEnd pairs that they come from, else 0; of pairs of several modes it is
+    GL_QUAD_STRIP, if that is among them. `shown_at` is (x, y, zoom x,
     zoom y) of a rectangle that shows each texel of the only texture as so many whole pixels, from the corner (x, y) on,
     to the left or downwards for a negative zoom; None where that is not known, as in recordings read from files.
     """

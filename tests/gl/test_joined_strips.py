@@ -1,5 +1,6 @@
 """Strips of a shape, whatever their modes, become one draw of separate triangles, with the pixels of single strips."""
 
+from collections.abc import Callable
 from random import Random
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import similar_pairs
+from softshadow.gl import list_primitives, similar_pairs
 from softshadow.gl.shape_calls import Calls
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.commands import Draw
@@ -24,7 +25,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     NUMBERS,
     START,
 )
-from softshadow.pipeline.geometry.assembly import assemble, edge_flags, edges_of_joined_strips, order_of_joined_strips
+from softshadow.pipeline.geometry.assembly import assemble, order_of_joined_strips
 from softshadow.pipeline.geometry.separate import STRIPS, separate_indices
 from softshadow.pipeline.mesa.quad_cuts import SEGMENT, in_clipped_segment
 
@@ -40,23 +41,41 @@ SWITCHES = (
 
 
 def random_shape(random: Random) -> Calls:
-    """Return strips of several modes, many of them folded and clipped; some begin with the normal set before them."""
-    calls = Calls()
+    """Return strips of several modes, many of them folded and clipped; some begin with the normal set before them.
+
+    Some vertices are there several times: a display list keeps them once.
+    """
+    with_normals, late_often = random.random() < 0.8, random.choice((0.0, 0.4))
+    calls, points = Calls(), [[random.uniform(-1.6, 1.6) for _ in range(3)] for _ in range(4)]
     for _ in range(random.randint(1, 6)):
         if random.random() < 0.5:
             calls.normal(*[random.uniform(-1.0, 1.0) for _ in range(3)])
         calls.begin(random.choice(MODES))
-        late = random.random() < 0.4
+        late = random.random() < late_often
         reach = random.choice((0.9, 1.6))
-        for vertex in range(random.choice((4, 5, 6, 9, 12))):
-            if vertex or not late:
+        for vertex in range(random.choice((4, 6, 6, 8, 9, 12, 12))):
+            if with_normals and (vertex or not late):
                 calls.normal(*[random.uniform(-1.0, 1.0) for _ in range(3)])
-            calls.vertex(*[random.uniform(-reach, reach) for _ in range(3)])
+            repeats = random.random() < 0.2
+            calls.vertex(*(random.choice(points) if repeats else [random.uniform(-reach, reach) for _ in range(3)]))
         calls.end()
     return calls
 
 
-def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
+def make(shape: Calls) -> None:
+    """Draw a shape by its calls."""
+    shape.make()
+
+
+def compile_and_call(shape: Calls) -> None:
+    """Draw a shape by a display list."""
+    gl.glNewList(1, gl.GL_COMPILE)
+    shape.make()
+    gl.glEndList()
+    gl.glCallList(1)
+
+
+def drawn(seed: int, draw: Callable[[Calls], None]) -> tuple[list[bytes], list[Draw]]:
     """Return the buffers that random shapes under random states leave, and their draws."""
     random = Random(seed)
     with gl.create_context(24, 18) as context:
@@ -75,7 +94,7 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
                 faces = random.choice((gl.GL_FRONT, gl.GL_FRONT_AND_BACK, gl.GL_FRONT_AND_BACK))
                 gl.glPolygonMode(faces, random.choice((gl.GL_FILL, gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)))
             gl.glColor3f(random.random(), random.random(), random.random())
-            random_shape(random).make()
+            draw(random_shape(random))
         gl.glFinish()
         window = context.storage.window
         buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
@@ -83,16 +102,20 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
 
 
 @pytest.mark.parametrize("seeds", [range(start, start + 20) for start in range(0, 120, 20)], ids=str)
-def test_strips_of_a_shape_have_the_pixels_of_single_ones(seeds: range, monkeypatch: pytest.MonkeyPatch) -> None:
-    joined = {seed: drawn(seed) for seed in seeds}
+@pytest.mark.parametrize("draw", [make, compile_and_call])
+def test_strips_of_a_shape_have_the_pixels_of_single_ones(
+    seeds: range, draw: Callable[[Calls], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    joined = {seed: drawn(seed, draw) for seed in seeds}
     of_modes = [draw for _, draws in joined.values() for draw in draws if draw.pairs_mode == gl.GL_QUAD_STRIP]
-    assert len(of_modes) > len(seeds)
+    assert len(of_modes) > 4
     with use_short_cuts(False):
-        assert {seed: drawn(seed)[0] for seed in seeds[:5]} == {seed: joined[seed][0] for seed in seeds[:5]}
+        assert {seed: drawn(seed, draw)[0] for seed in seeds[:5]} == {seed: joined[seed][0] for seed in seeds[:5]}
     monkeypatch.setattr(similar_pairs, "SEPARABLE", {})
     monkeypatch.setattr(similar_pairs, "STRIPS", frozenset())
+    monkeypatch.setattr(list_primitives, "STRIPS", frozenset())
     for seed in seeds:
-        buffers, draws = drawn(seed)
+        buffers, draws = drawn(seed, draw)
         assert not any(draw.pairs_mode for draw in draws)
         assert len(draws) >= len(joined[seed][1])
         assert buffers == joined[seed][0], seed
@@ -135,11 +158,3 @@ def test_triangles_are_those_of_each_strip_in_their_order(seed: int, in_stages: 
     ours = kernel_triangles(indices, needs_clipping, IN_STAGES if in_stages else 1)
     np.testing.assert_array_equal(ours[0], expected[0])
     np.testing.assert_array_equal(ours[1], expected[1])
-
-
-def test_edges_are_those_of_each_strip() -> None:
-    modes, counts = (gl.GL_TRIANGLE_FAN, gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_STRIP, gl.GL_QUAD_STRIP), (5, 8, 6, 4)
-    numbers = (3, 6, 4, 2)
-    expected = np.concatenate([edge_flags(mode, number) for mode, number in zip(modes, numbers, strict=True)])
-    edges = edges_of_joined_strips(separate_indices(modes, counts).reshape(-1, 3))
-    assert edges.tolist() == expected.tolist()

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment, quads_and_stride
+from softshadow.pipeline.mesa.quad_cuts import QUADS_OF_SEGMENT, quads_and_stride
 
 
 class Triangles(NamedTuple):
@@ -111,18 +111,18 @@ def edges_of_joined_polygons(corners: np.ndarray) -> np.ndarray:
 def quads_of_joined_strips(corners: np.ndarray) -> np.ndarray:
     """Return the first triangles (Q,) of the quads of quad strips, among the triangles (T, 3) of strips and fans.
 
-    The corners are those without clipping; no triangles of other strips are numbered like a quad's.
+    The corners are those without clipping. Where two triangles of a fan or of a triangle strip look like a quad's, both
+    have no area.
     """
-    pattern = np.array(QUAD_OF_STRIP, np.int32)[:, :3]
-    pairs = np.stack([corners[:-1], corners[1:]], axis=1)
-    return np.flatnonzero((pairs - pairs[:, :1, :1] == pattern).all(axis=(1, 2)))
-
-
-def edges_of_joined_strips(corners: np.ndarray) -> np.ndarray:
-    """Return what `edge_flags` returns of each strip or fan, for the triangles (T, 3) of those in a row."""
-    edges, quads = np.ones((len(corners), 3), np.uint8), quads_of_joined_strips(corners)
-    edges[quads, 1] = edges[quads + 1, 2] = 0
-    return edges
+    first, second = corners[:-1], corners[1:]
+    found = np.flatnonzero((first[:, 0] == second[:, 1]) & (first[:, 2] == second[:, 2]))
+    if np.all(np.diff(found) > 1):
+        return found
+    quads: list[int] = []  # equal vertices of a list: the second triangle of one quad and the first of the next
+    for triangle in found.tolist():
+        if not quads or triangle > quads[-1] + 1:
+            quads.append(triangle)
+    return np.array(quads)
 
 
 def order_of_joined_strips(corners: np.ndarray, needs_clipping: np.ndarray, in_stages: bool) -> np.ndarray:
@@ -136,12 +136,14 @@ def order_of_joined_strips(corners: np.ndarray, needs_clipping: np.ndarray, in_s
         return order
     quads = quads_of_joined_strips(corners)
     if not in_stages:
-        first = corners[quads, 0]  # vertex of each quad
-        begins = np.flatnonzero(np.diff(first, prepend=-9) != 2)
-        counts = np.diff(begins, append=len(first))
-        strips = [slice(start, start + 2 * count + 2) for start, count in zip(first[begins], counts, strict=True)]
-        clipped = [in_clipped_segment(gl.GL_QUAD_STRIP, needs_clipping[strip], None) for strip in strips]
-        quads = quads[np.concatenate([np.empty(0, bool), *clipped])]
+        before, after = corners[quads][:, :2], corners[quads + 1][:, ::2]  # first and last edge of each quad
+        goes_on = (np.diff(quads) == 2) & (before[1:] == after[:-1]).all(axis=1)
+        begins = np.append(True, ~goes_on)[: len(quads)]
+        numbers = np.arange(len(quads))
+        in_strip = numbers - np.maximum.accumulate(np.where(begins, numbers, 0))
+        segment = np.cumsum(begins | (in_strip % QUADS_OF_SEGMENT == 0)) - 1
+        needs = needs_clipping[before].any(axis=1) | needs_clipping[after].any(axis=1)
+        quads = quads[np.bincount(segment, needs)[segment] > 0]
     order[quads], order[quads + 1] = quads + 1, quads
     return order
 

@@ -13,7 +13,6 @@ from softshadow.pipeline.geometry.assembly import (
     assemble,
     edge_flags,
     edges_of_joined_polygons,
-    edges_of_joined_strips,
     order_of_joined_strips,
     separate_triangles,
     through_indices,
@@ -106,10 +105,9 @@ def drawn_edges(command: Draw, corners: np.ndarray) -> np.ndarray:
     flags = command.vertices.edges
     if command.pairs_mode == gl.GL_POLYGON:
         edges = edges_of_joined_polygons(corners)
-    elif command.pairs_mode == gl.GL_QUAD_STRIP and command.indices is not None:
-        edges = edges_of_joined_strips(command.indices.reshape(-1, 3))  # where its quads are before they are cut
     else:
-        edges = edge_flags(command.mode, len(corners), first_provokes(command.state))
+        mode = gl.GL_QUAD_STRIP if command.pairs_mode == gl.GL_QUAD_STRIP else command.mode
+        edges = edge_flags(mode, len(corners), first_provokes(command.state))
     return edges if flags is None else np.ascontiguousarray(edges & flags[corners].astype(np.uint8))
 
 

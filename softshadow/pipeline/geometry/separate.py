@@ -7,6 +7,7 @@ of quads of strips change places in pairs where a strip is clipped (`assembly.or
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -27,16 +28,20 @@ STRIPS = frozenset((gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUAD_STRIP))
 MOST_KNOWN = 64  # arrays of indices that are kept: a program draws the same primitives in every frame
 
 
-def can_be_separated(command: Draw) -> bool:
+def can_be_separated(command: Draw, modes: Collection[int] = ()) -> bool:
     """Return whether a draw of a mode in `SEPARABLE` has the same pixels with separate primitives.
 
     Not where lines may be stippled, as separate ones begin the pattern anew, nor where the first vertex gives flat
     colours, as that is another one then. Of polygons that are filled on one side only, Mesa treats a draw as a whole.
+    `modes` are those of all primitives, if they are in `STRIPS` and not all of the draw's mode: then polygons must be
+    filled, as the edges of quads and of triangles are not the same ones.
     """
     state = command.state
     if is_stippled(state.lines) or first_provokes(state):
         return False
     front, back = effective_modes(state)
+    if len(set(modes)) > 1 and front != gl.GL_FILL:
+        return False
     return command.mode in LINES or front == back
 
 
@@ -48,12 +53,15 @@ def separated(command: Draw, counts: tuple[int, ...], modes: tuple[int, ...] = (
     """
     if len(counts) == 1:
         return command
-    pairs_mode = gl.GL_QUAD_STRIP if gl.GL_QUAD_STRIP in modes else command.mode
+    modes = modes or (command.mode,) * len(counts)
     return command._replace(
-        mode=SEPARABLE[command.mode],
-        indices=separate_indices(modes or (command.mode,) * len(counts), counts),
-        pairs_mode=pairs_mode,
+        mode=SEPARABLE[command.mode], indices=separate_indices(modes, counts), pairs_mode=pairs_mode_of(modes)
     )
+
+
+def pairs_mode_of(modes: Sequence[int]) -> int:
+    """Return the `pairs_mode` of a draw of primitives of several modes: the triangles of quads may change places."""
+    return gl.GL_QUAD_STRIP if gl.GL_QUAD_STRIP in modes else modes[0]
 
 
 def is_separated(command: Draw) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from softshadow import tokens as gl
 
 SEGMENT, INDEXED_SEGMENT = 4096, 1024  # vertices that llvmpipe processes together (draw_pt_vsplit.c)
+QUADS_OF_SEGMENT = SEGMENT // 2 - 1  # of a strip without indices: segments share two vertices
 
 
 def quads_and_stride(mode: int, n_vertices: int) -> tuple[int, int]:

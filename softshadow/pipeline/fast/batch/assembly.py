@@ -17,7 +17,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     START,
 )
 from softshadow.pipeline.geometry.lines import LINES
-from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, SEGMENT
+from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, QUADS_OF_SEGMENT, SEGMENT
 from softshadow.tokens import (
     GL_LINE_LOOP,
     GL_LINE_STRIP,
@@ -94,62 +94,64 @@ def assemble_draws(numbers, indices, codes, triangles, provoking):
                 write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, 0, 0)
                 row += 1
         elif mode == JOINED_STRIPS:
-            row = write_joined_strips(numbers, indices, codes, d, n // 3, triangles, provoking, row)
+            corners = indices[numbers[d, INDEX_START] : numbers[d, INDEX_END]].reshape((n // 3, 3))
+            in_stages = numbers[d, ACROSS] == IN_STAGES
+            row = write_joined_strips(corners, numbers[d, START], in_stages, codes, triangles, provoking, row)
         else:
             row = write_quads(numbers, indices, codes, d, mode, n, triangles, provoking, row)
     return row
 
 
 @kernel
-def is_quad_of_strip(numbers, indices, d, i, last):
-    """Return whether the indices from `i` on, before `last`, are those of a quad of a strip, as it is without clipping.
-
-    Equals `geometry.assembly.quads_of_joined_strips`.
-    """
-    at = numbers[d, INDEX_START] + i
-    if i + 6 > last:
-        return False
-    a = indices[at]
-    one = indices[at + 1] == a + 1 and indices[at + 2] == a + 3
-    return one and indices[at + 3] == a + 2 and indices[at + 4] == a and indices[at + 5] == a + 3
+def is_quad_of_strip(corners, t):
+    """Return whether triangles t and t + 1 of (T, 3) are a quad of a strip (`geometry.assembly`)."""
+    return t + 1 < corners.shape[0] and corners[t, 0] == corners[t + 1, 1] and corners[t, 2] == corners[t + 1, 2]
 
 
 @kernel
-def write_joined_strips(numbers, indices, codes, d, n_triangles, triangles, provoking, row):
-    """Write the separate triangles of strips in a row, whose indices are those without clipping; return the next row.
+def write_joined_strips(corners, start, in_stages, codes, triangles, provoking, row):
+    """Write the triangles (T, 3) of strips in a row, whose corners are those without clipping; return the next row.
 
-    Equals `geometry.assembly.order_of_joined_strips`.
+    Equals `geometry.assembly.order_of_joined_strips`. `start` is added to the corners.
     """
-    in_stages, step = numbers[d, ACROSS] == IN_STAGES, SEGMENT - 2  # segments share two vertices
-    strip, before, n_used, segment_end, is_clipped = 0, -9, 0, 0, False
-    i, end = 0, 3 * n_triangles
-    while i < end:
-        if not is_quad_of_strip(numbers, indices, d, i, end):
-            write_triangle(numbers, indices, d, triangles, provoking, row, i, i + 1, i + 2, i + 2)
-            row += 1
-            i += 3
+    t, n, segment_end, is_clipped, goes_on = 0, corners.shape[0], 0, False, False
+    while t < n:
+        if not is_quad_of_strip(corners, t):
+            write_corners(corners, t, start, triangles, provoking, row)
+            t, row, goes_on = t + 1, row + 1, False
             continue
-        first = vertex_at(numbers, indices, d, i)
-        if first != before + 2:
-            strip, n_used, segment_end = first, 4, 0
-            k = i + 6
-            while is_quad_of_strip(numbers, indices, d, k, end) and (
-                vertex_at(numbers, indices, d, k) == strip + n_used - 2
-            ):
-                n_used += 2
-                k += 6
-        before = first
-        if first - strip >= segment_end:
-            segment_end = (first - strip) // step * step + step
-            is_clipped = False
-            for v in range(strip + segment_end - step, strip + min(segment_end + 2, n_used)):
-                is_clipped = is_clipped or codes[v] != 0
-        one, two = (i + 3, i) if is_clipped or in_stages else (i, i + 3)
-        write_triangle(numbers, indices, d, triangles, provoking, row, one, one + 1, one + 2, one + 2)
-        write_triangle(numbers, indices, d, triangles, provoking, row + 1, two, two + 1, two + 2, two + 2)
-        row += 2
-        i += 6
+        if t >= segment_end or not goes_on:
+            segment_end, is_clipped = t, False
+            while True:
+                for k in range(3):
+                    is_clipped |= codes[start + corners[segment_end, k]] != 0
+                is_clipped |= codes[start + corners[segment_end + 1, 0]] != 0
+                segment_end += 2
+                if segment_end == t + 2 * QUADS_OF_SEGMENT or not continues_strip(corners, segment_end):
+                    break
+        swapped = is_clipped or in_stages
+        write_corners(corners, t + swapped, start, triangles, provoking, row)
+        write_corners(corners, t + 1 - swapped, start, triangles, provoking, row + 1)
+        t, row = t + 2, row + 2
+        goes_on = continues_strip(corners, t)
     return row
+
+
+@kernel
+def continues_strip(corners, t):
+    """Return whether triangles t and t + 1 are a quad that goes on where the quad before them ends."""
+    begins = (
+        corners[t - 1, 0] == corners[t, 0] and corners[t - 1, 2] == corners[t, 1] if t < corners.shape[0] else False
+    )
+    return begins and is_quad_of_strip(corners, t)
+
+
+@kernel
+def write_corners(corners, t, start, triangles, provoking, row):
+    """Write a triangle, of which the last corner gives the flat colours."""
+    for k in range(3):
+        triangles[row, k] = start + corners[t, k]
+    provoking[row] = triangles[row, 2]
 
 
 @kernel

@@ -24,7 +24,7 @@ from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, v
 from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
-from softshadow.pipeline.geometry.assembly import edge_flags, edges_of_joined_polygons, edges_of_joined_strips
+from softshadow.pipeline.geometry.assembly import edge_flags, edges_of_joined_polygons
 from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, Clipped, clip_triangles, write_sides
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
@@ -203,11 +203,13 @@ def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
     """Return which edges of the assembled triangles (T, 3) of draws without edge flags are drawn."""
     edges = []
     for (mode, pairs_mode), same in groupby(draws, attrgetter("mode", "pairs_mode")):
-        if pairs_mode in (gl.GL_POLYGON, gl.GL_QUAD_STRIP):
-            of_joined = edges_of_joined_polygons if pairs_mode == gl.GL_POLYGON else edges_of_joined_strips
-            edges += [of_joined(draw.indices.reshape(-1, 3)) for draw in same if draw.indices is not None]
+        if pairs_mode == gl.GL_POLYGON:
+            edges += [
+                edges_of_joined_polygons(draw.indices.reshape(-1, 3)) for draw in same if draw.indices is not None
+            ]
             continue
         counts = [primitive_count(mode, _named_vertices(draw)) for draw in same]
+        mode = gl.GL_QUAD_STRIP if pairs_mode == gl.GL_QUAD_STRIP else mode
         # the triangles of other modes have the same edges in a draw of their own
         edges += [edge_flags(mode, count) for count in (counts if mode == gl.GL_POLYGON else [sum(counts)])]
     return edges[0] if len(edges) == 1 else np.concatenate(edges)
