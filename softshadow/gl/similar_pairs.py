@@ -1,6 +1,6 @@
 """glBegin ... glEnd pairs in a row that differ in nothing but their vertices, such as the strips of a sphere.
 
-The first pair sets the vertex format: by its calls, unless no vertices are collected before it. The others have the
+The first pair sets the vertex format, by its calls, unless that is done in another way. The others have the
 same format and the same state, so they are one draw of separate triangles or lines; where that has other pixels, their
 draws are copies of one draw with other vertices.
 """
@@ -179,9 +179,14 @@ def first_pairs(
     starts : dict                  the first vertex for which they set each attribute
     """
     buffer = context.vertex_buffer
-    if buffer.n_vertices or buffer.joined_pairs is not None or "position" in buffer.sizes:
+    if not _can_be_similar(context):
         return None
-    if not _can_be_similar(context) or context.groups[""].fields["draw_framebuffer"] != DEFAULT:
+    if buffer.n_vertices:  # of pairs before: since then, calls have only set attributes
+        follow_color(context)
+        return similar_pairs(context, sizes)
+    if buffer.joined_pairs is not None or "position" in buffer.sizes:
+        return None
+    if context.groups[""].fields["draw_framebuffer"] != DEFAULT:
         return None
     if mode in SEPARATE or not FEWEST <= count < buffer.room_for(sizes) - 2:
         return None
@@ -204,7 +209,7 @@ def _can_be_similar(context: Context) -> bool:
 
 
 def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | None:
-    """Return what draws more pairs like the one that has ended just now; None if they may need more than that.
+    """Return what draws more pairs like a collected one; None if they may need more than that.
 
     Parameters
     ----------
