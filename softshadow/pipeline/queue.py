@@ -41,7 +41,7 @@ from softshadow.state import State
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.geometry import geometry_of
-    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING
+    from softshadow.pipeline.fast.batch.run import least_compared
     from softshadow.pipeline.fast.batch.segments import Part, cut, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
@@ -110,7 +110,7 @@ class DrawQueue:
                 self.carry_out()
                 return False
             # large meshes are drawn again under other states: alone, they are found to be equal
-            if kind is not self._kind and not (self._are_small and n_vertices < WORTH_COMPARING):
+            if kind is not self._kind and not (self._are_small and n_vertices < least_compared(command)):
                 self.carry_out()
             self._kind, self._like = kind, command
         batch = self._batches.get(kind.batch)
@@ -128,7 +128,7 @@ class DrawQueue:
             self._framebuffers.add(command.state.draw_framebuffer)
         self._n_commands += 1
         self._n_vertices += n_vertices
-        self._are_small = self._are_small and n_vertices < WORTH_COMPARING
+        self._are_small = self._are_small and n_vertices < least_compared(command)
         if self._n_commands == MOST_DRAWS:
             self.carry_out()
         return True
@@ -160,7 +160,7 @@ class DrawQueue:
         counts = [len(command.vertices.position) for command in (first, *others)]
         n_vertices = sum(counts) - counts[0]
         is_full = self._n_commands + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        if is_full or max(counts) >= WORTH_COMPARING or self._kind is None or self._segment is None:
+        if is_full or max(counts) >= least_compared(first) or self._kind is None or self._segment is None:
             return False
         self._batches[self._kind.batch] += others
         self._segment.end += len(others)

@@ -10,6 +10,7 @@ from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
 from softshadow.pipeline import queue, use_short_cuts
+from softshadow.pipeline.fast.batch.run import WORTH_COMPARING
 from softshadow.pipeline.fast.batch.segments import Part
 
 
@@ -164,12 +165,26 @@ def test_large_draws_of_one_kind_are_set_up_together(batches):
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_LIGHTING)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
-    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((queue.WORTH_COMPARING, 3), np.float32))
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((WORTH_COMPARING, 3), np.float32))
     for n in range(5):
         gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, [n / 5, 0, 0, 1])
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, queue.WORTH_COMPARING)
+        gl.glDrawArrays(gl.GL_TRIANGLES, 0, WORTH_COMPARING)
     gl.glFinish()
     assert batches == [5]
+
+
+def test_spheres_under_other_states_wait_together(batches):
+    """Their strips are a draw of many vertices, but few programs draw the same sphere again in a pass of its own."""
+    quadric = gl.gluNewQuadric()
+    context = gl.create_context(SIZE, SIZE)
+    for n in range(4):
+        (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_LIGHTING)
+        gl.gluSphere(quadric, 0.5, 20, 16)
+    context.flush()
+    assert min(len(command.vertices.position) for command in context.frame.commands) > WORTH_COMPARING
+    assert not batches
+    gl.glFinish()
+    assert sum(batches) == 4
 
 
 def test_a_program_is_told_once_that_it_waits_for_its_kernels(

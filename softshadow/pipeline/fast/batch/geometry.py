@@ -18,7 +18,7 @@ from softshadow.jit import read_only
 from softshadow.pipeline.commands import NO_UNIFORMS, Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, WORTH_COMPARING, Run, width_of
+from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, Run, least_compared, width_of
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
 from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices
@@ -270,7 +270,7 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     """Return whether a run is large enough to be compared with recent ones: of large draws of triangles."""
     if width_of(draws[0].mode) != WIDTH_OF_POLYGONS or len(draws) > MOST_COMPARED:
         return False
-    return sum([len(draw.vertices.position) for draw in draws]) >= WORTH_COMPARING * len(draws)
+    return sum([len(draw.vertices.position) for draw in draws]) >= sum(map(least_compared, draws))
 
 
 def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer) -> Hashable:

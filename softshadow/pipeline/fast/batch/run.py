@@ -56,6 +56,7 @@ OF_TESTS = ("stencil", "depth", "blend")
 OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in (*OF_TESTS, "clip_planes"))
 PLAIN_POINTS, PLAIN_POLYGON, NO_CLIP_PLANES = Points(), Polygon(), ClipPlanes()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
+STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
 WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
@@ -306,6 +307,11 @@ def is_outlined_alone(command: Draw) -> bool:
         return False
     is_large = len(vertices.position) >= WORTH_COMPARING and not command.pairs_mode
     return vertices.edges is not None or is_large
+
+
+def least_compared(command: Draw) -> int:
+    """Return how many vertices make a draw worth comparing with recent ones: it may be drawn in several passes."""
+    return STRIPS_WORTH_COMPARING if command.pairs_mode else WORTH_COMPARING
 
 
 def can_run(command: Draw) -> bool:
