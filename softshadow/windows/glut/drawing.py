@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import wraps
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,15 +14,59 @@ from softshadow import gl
 from softshadow.windows.desktop import desktop
 
 MOST_VERTICES = 1 << 16  # that indices of 16 bits can name
+KEPT_SHAPES, KEPT_VERTICES = 64, 1 << 13  # shapes that are kept, and how many vertices each may have: below 25 MB
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Positions and normals, float32 (n, 3), and texture coordinates (n, 2) if there are any."""
+    """Positions and normals, float32 (n, 3), and texture coordinates (n, 2) if there are any.
+
+    Nobody can change them, so they are neither copied nor compared when they are drawn again.
+    """
 
     positions: np.ndarray
     normals: np.ndarray
     texcoords: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        for array in (self.positions, self.normals, self.texcoords):
+            if array is not None:
+                fixed(array)
+
+
+class Shape(NamedTuple):
+    """A surface, and rows of indices: of strips, or of lines and then `loops`."""
+
+    surface: Surface
+    rows: np.ndarray
+    loops: np.ndarray | None = None
+
+
+def fixed(array: np.ndarray) -> np.ndarray:
+    """Return an array that owns its numbers as one that nobody can change."""
+    assert array.base is None
+    array.setflags(write=False)
+    return array
+
+
+def kept(make: Callable[..., Shape]) -> Callable[..., Shape]:
+    """Keep the latest shapes that a function makes of numbers: programs draw the same ones in every frame."""
+    known: dict[tuple[Any, ...], Shape] = {}
+
+    @wraps(make)
+    def shape(*numbers: Any) -> Shape:
+        # by the bits of float32: zeros of both signs are equal numbers
+        key = tuple([each.tobytes() if isinstance(each, np.float32) else each for each in numbers])
+        found = known.get(key)
+        if found is None:
+            found = make(*numbers)
+            if len(found.surface.positions) <= KEPT_VERTICES:
+                if len(known) >= KEPT_SHAPES:
+                    del known[next(iter(known))]
+                known[key] = found
+        return found
+
+    return shape
 
 
 def count(call: str, name: str, value: Any) -> int:
@@ -41,7 +87,7 @@ def indices(rows: Any) -> np.ndarray:
     values = np.asarray(rows, np.int64)
     if values.size and values.max() >= MOST_VERTICES:
         desktop().tell("a shape of GLUT has more than 65535 vertices; their numbers begin again at 0, as in freeglut")
-    return values.astype(np.uint16)
+    return fixed(values.astype(np.uint16, order="C"))
 
 
 def _begin(surface: Surface) -> None:
@@ -71,20 +117,20 @@ def draw_triangles(surface: Surface, corners: np.ndarray | None = None) -> None:
     _end(surface)
 
 
-def draw_strips(surface: Surface, strips: np.ndarray) -> None:
+def draw_strips(shape: Shape) -> None:
     """Draw a triangle strip for each row of indices."""
-    _begin(surface)
-    _draw_rows(gl.GL_TRIANGLE_STRIP, strips)
-    _end(surface)
+    _begin(shape.surface)
+    _draw_rows(gl.GL_TRIANGLE_STRIP, shape.rows)
+    _end(shape.surface)
 
 
-def draw_lines(surface: Surface, mode: int, rows: np.ndarray, loops: np.ndarray | None = None) -> None:
-    """Draw lines of a mode for each row of indices, then a loop for each row of others."""
-    _begin(surface)
-    _draw_rows(mode, rows)
-    if loops is not None:
-        _draw_rows(gl.GL_LINE_LOOP, loops)
-    _end(surface)
+def draw_lines(shape: Shape, mode: int) -> None:
+    """Draw lines of a mode for each row of indices, then a loop for each row of `loops`."""
+    _begin(shape.surface)
+    _draw_rows(mode, shape.rows)
+    if shape.loops is not None:
+        _draw_rows(gl.GL_LINE_LOOP, shape.loops)
+    _end(shape.surface)
 
 
 def draw_faces_as_loops(surface: Surface, size: int) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from typing import Any
 
 import numpy as np
 
-from softshadow.windows.glut.drawing import Surface, count, draw_faces_as_loops, draw_triangles
+from softshadow.windows.glut.drawing import KEPT_SHAPES, Surface, count, draw_faces_as_loops, draw_triangles, indices
 
 # how a face is cut into triangles, by its number of corners
 TRIANGLES = {4: (0, 1, 2, 0, 2, 3), 5: (0, 1, 2, 0, 2, 4, 4, 2, 3)}
@@ -40,7 +40,7 @@ def _corners(name: str) -> np.ndarray | None:
     n_faces, size = tables()[name]["faces"].shape
     if size not in TRIANGLES:
         return None
-    return (size * np.arange(n_faces)[:, np.newaxis] + TRIANGLES[size]).astype(np.uint16).ravel()
+    return indices((size * np.arange(n_faces)[:, np.newaxis] + TRIANGLES[size]).ravel())
 
 
 def _draw(solid: bool, surface: Surface, name: str) -> None:
@@ -57,8 +57,13 @@ def draw_polyhedron(solid: bool, name: str) -> None:
 
 def draw_cube(solid: bool, size: float) -> None:
     """Draw a cube around the origin."""
+    _draw(solid, _cube(np.float32(size).tobytes()), "cube")
+
+
+@lru_cache(KEPT_SHAPES)
+def _cube(size_bits: bytes) -> Surface:
     unit = polyhedron("cube")
-    _draw(solid, Surface(np.float32(size) * unit.positions, unit.normals), "cube")
+    return Surface(np.frombuffer(size_bits, np.float32) * unit.positions, unit.normals)
 
 
 def draw_sponge(solid: bool, n_levels: Any, offset: Any, scale: float) -> None:
@@ -68,7 +73,7 @@ def draw_sponge(solid: bool, n_levels: Any, offset: Any, scale: float) -> None:
         return
     unit = polyhedron("tetrahedron")
     positions = np.concatenate(_sponge(n_levels, np.array(offset, np.float64)[:3], np.float32(scale)))
-    _draw(solid, Surface(positions, np.tile(unit.normals, (4**n_levels, 1))), "tetrahedron")
+    _draw(solid, Surface(positions, np.concatenate([unit.normals] * 4**n_levels)), "tetrahedron")
 
 
 def _sponge(n_levels: int, offset: np.ndarray, scale: np.float32) -> list[np.ndarray]:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from softshadow import gl
-from softshadow.windows.glut.drawing import Surface, count, draw_lines, draw_strips, indices
+from softshadow.windows.glut.drawing import Shape, Surface, count, draw_lines, draw_strips, indices, kept
 
 F32 = np.float32
 DOWN, UP = (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)
@@ -57,29 +57,41 @@ def draw_sphere(solid: bool, radius: Any, slices: Any, stacks: Any) -> None:
     slices, stacks = _counts(call, ("slices", "stacks"), (slices, stacks))
     if slices < 1 or stacks < 2:
         return
+    shape = _sphere(solid, F32(radius), slices, stacks)
+    if solid:
+        draw_strips(shape)
+    else:
+        draw_lines(shape, gl.GL_LINE_STRIP)
+
+
+@kept
+def _sphere(solid: bool, radius: np.float32, slices: int, stacks: int) -> Shape:
     around, down = _circle(-slices), _circle(stacks, 1)
     rings = [_ring(slices, around, down[stack, 1], down[stack, 0]) for stack in range(1, stacks)]
     normals = np.concatenate([np.array([UP], F32), *rings, np.array([DOWN], F32)])
-    surface = Surface(normals * F32(radius), normals)
+    surface = Surface(normals * radius, normals)
     last = len(normals) - 1
     firsts = range(1, last, slices)
     if solid:
         closed = [_closed(first, slices) for first in firsts]
         middle = [_strip(below, above) for above, below in itertools.pairwise(closed)]
-        draw_strips(surface, indices([_strip(closed[0], 0), *middle, _strip(last, closed[-1])]))
-    else:
-        meridians = [[0, *range(1 + slice, last, slices), last] for slice in range(slices)]
-        parallels = [range(first, first + slices) for first in firsts]
-        draw_lines(surface, gl.GL_LINE_STRIP, indices(meridians), indices(parallels))
+        return Shape(surface, indices([_strip(closed[0], 0), *middle, _strip(last, closed[-1])]))
+    meridians = [[0, *range(1 + slice, last, slices), last] for slice in range(slices)]
+    parallels = [range(first, first + slices) for first in firsts]
+    return Shape(surface, indices(meridians), indices(parallels))
 
 
 def draw_cone(solid: bool, base: Any, height: Any, slices: Any, stacks: Any) -> None:
     """Draw a cone along the z axis, from its base at 0 to its tip."""
     call = "glutSolidCone" if solid else "glutWireCone"
     slices, stacks = _counts(call, ("slices", "stacks"), (slices, stacks))
-    if slices < 1 or stacks < 1:
-        return
-    base, height, circle = F32(base), F32(height), _circle(-slices)
+    if slices >= 1 and stacks >= 1:
+        _draw_sides(solid, _cone(solid, F32(base), F32(height), slices, stacks))
+
+
+@kept
+def _cone(solid: bool, base: np.float32, height: np.float32, slices: int, stacks: int) -> Shape:
+    circle = _circle(-slices)
     with np.errstate(all="ignore"):  # a cone without size has no normals
         length = np.sqrt(np.float64(height * height + base * base))
         cosine, sine = F32(height / length), F32(base / length)
@@ -92,19 +104,21 @@ def draw_cone(solid: bool, base: Any, height: Any, slices: Any, stacks: Any) -> 
         normals = [_disc(slices + 1, DOWN), *[_ring(slices, circle, cosine, sine)] * (stacks + 1)]
     surface = Surface(np.concatenate(rings), np.concatenate(normals))
     if solid:
-        draw_strips(surface, indices(_strips_of_sides(slices, stacks)))
-    else:
-        _draw_sides_as_lines(surface, slices, stacks, stacks)
+        return Shape(surface, indices(_strips_of_sides(slices, stacks)))
+    return Shape(surface, *_lines_of_sides(slices, stacks, stacks))
 
 
 def draw_cylinder(solid: bool, radius: Any, height: Any, slices: Any, stacks: Any) -> None:
     """Draw a cylinder along the z axis, from 0 to its height."""
     call = "glutSolidCylinder" if solid else "glutWireCylinder"
     slices, stacks = _counts(call, ("slices", "stacks"), (slices, stacks))
-    if slices < 1 or stacks < 1:
-        return
-    radius, height, circle = F32(radius), F32(height), _circle(-slices)
-    step = height / F32(stacks)
+    if slices >= 1 and stacks >= 1:
+        _draw_sides(solid, _cylinder(solid, F32(radius), F32(height), slices, stacks))
+
+
+@kept
+def _cylinder(solid: bool, radius: np.float32, height: np.float32, slices: int, stacks: int) -> Shape:
+    circle, step = _circle(-slices), height / F32(stacks)
     z = F32(0)
     rings = [np.zeros((1, 3), F32), _ring(slices, circle, radius, z)]
     for _ in range(stacks + 1):
@@ -115,9 +129,15 @@ def draw_cylinder(solid: bool, radius: Any, height: Any, slices: Any, stacks: An
     surface = Surface(np.concatenate(rings), np.concatenate([_disc(slices + 1, DOWN), *sides, _disc(slices + 1, UP)]))
     if solid:
         top = _strip(_closed(1 + (stacks + 2) * slices, slices), len(surface.positions) - 1)
-        draw_strips(surface, indices([*_strips_of_sides(slices, stacks), top]))
+        return Shape(surface, indices([*_strips_of_sides(slices, stacks), top]))
+    return Shape(surface, *_lines_of_sides(slices, stacks, stacks + 1))
+
+
+def _draw_sides(solid: bool, shape: Shape) -> None:
+    if solid:
+        draw_strips(shape)
     else:
-        _draw_sides_as_lines(surface, slices, stacks, stacks + 1)
+        draw_lines(shape, gl.GL_LINES)
 
 
 def _strips_of_sides(slices: int, stacks: int) -> list[np.ndarray]:
@@ -126,10 +146,10 @@ def _strips_of_sides(slices: int, stacks: int) -> list[np.ndarray]:
     return [_strip(0, _closed(1, slices)), *(_strip(*pair) for pair in itertools.pairwise(rings))]
 
 
-def _draw_sides_as_lines(surface: Surface, slices: int, stacks: int, n_loops: int) -> None:
+def _lines_of_sides(slices: int, stacks: int, n_loops: int) -> tuple[np.ndarray, np.ndarray]:
     lines = [number for slice in range(slices) for number in (1 + slice + slices, 1 + slice + (stacks + 1) * slices)]
     loops = [range(1 + number * slices, 1 + (number + 1) * slices) for number in range(1, n_loops + 1)]
-    draw_lines(surface, gl.GL_LINES, indices([lines]), indices(loops))
+    return indices([lines]), indices(loops)
 
 
 def draw_torus(solid: bool, inner: Any, outer: Any, sides: Any, rings: Any) -> None:
@@ -138,15 +158,28 @@ def draw_torus(solid: bool, inner: Any, outer: Any, sides: Any, rings: Any) -> N
     sides, rings = _counts(call, ("sides", "rings"), (sides, rings))
     if sides < 2 or rings < 2:
         return
-    inner, outer = F32(inner), F32(outer)
+    shape = _torus(solid, F32(inner), F32(outer), sides, rings)
+    if solid:
+        draw_strips(shape)
+    else:
+        draw_lines(shape, gl.GL_LINE_LOOP)
+
+
+@kept
+def _torus(solid: bool, inner: np.float32, outer: np.float32, sides: int, rings: int) -> Shape:
     along, around = _circle(rings), _circle(-sides)
     z = np.broadcast_to(around[:, 1], (rings, sides))
-    normals = np.stack([along[:, :1] * around[:, 0], along[:, 1:] * around[:, 0], z], axis=-1).reshape(-1, 3)
+    normals = np.stack([along[:, :1] * around[:, 0], along[:, 1:] * around[:, 0], z], axis=-1)
     reach = outer + around[:, 0] * inner
-    positions = np.stack([along[:, :1] * reach, along[:, 1:] * reach, z * inner], axis=-1).reshape(-1, 3)
-    surface, grid = Surface(positions, np.ascontiguousarray(normals)), np.arange(rings * sides).reshape(rings, sides)
+    positions = np.stack([along[:, :1] * reach, along[:, 1:] * reach, z * inner], axis=-1)
+    surface, grid = Surface(*_rows(positions, normals)), np.arange(rings * sides).reshape(rings, sides)
     if solid:
         closed = np.concatenate([grid, grid[:1]])
-        draw_strips(surface, indices([_strip(closed[:, side], closed[:, (side + 1) % sides]) for side in range(sides)]))
-    else:
-        draw_lines(surface, gl.GL_LINE_LOOP, indices(grid), indices(grid.T))
+        strips = [_strip(closed[:, side], closed[:, (side + 1) % sides]) for side in range(sides)]
+        return Shape(surface, indices(strips))
+    return Shape(surface, indices(grid), indices(grid.T))
+
+
+def _rows(*grids: np.ndarray) -> list[np.ndarray]:
+    """Return arrays (..., 3) as copies (n, 3)."""
+    return [grid.reshape(-1, 3).copy() for grid in grids]

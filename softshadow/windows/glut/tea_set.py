@@ -6,17 +6,18 @@ of a handle or spout, and are mirrored.
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from softshadow import gl
-from softshadow.windows.glut.drawing import Surface, draw_lines, draw_triangles, indices
+from softshadow.windows.glut.drawing import Shape, Surface, draw_lines, draw_triangles, indices
 from softshadow.windows.glut.polyhedra import tables
 
 F32 = np.float32
 QUARTERS = 6
+KEPT_SIZES = 32  # of pieces whose vertices are kept
 SOLID, WIRE = 8, 10  # vertices along each side of a patch
 
 
@@ -46,16 +47,15 @@ class TeaSet:
         """Draw a piece; the teapot's spout points along x, its lid up along y."""
         scale = F32(F32(size) / F32(PIECES[name].divisor))
         n = SOLID if solid else WIRE
-        positions, tangents = _evaluated(name, scale, n)
+        positions, tangents = _evaluated(name, scale.tobytes(), n)
         if (name, solid) not in self._normals:
             self._normals[name, solid] = _normals(name, tangents, n)
         n_patches = len(positions) // (n * n)
-        texcoords = np.tile(_texcoords(n), (n_patches, 1)) if solid else None
-        surface = Surface(positions, self._normals[name, solid], texcoords)
+        surface = Surface(positions, self._normals[name, solid], _texcoords(n_patches, n) if solid else None)
         if solid:
             draw_triangles(surface, _corners(n_patches, n))
         else:
-            draw_lines(surface, gl.GL_LINE_STRIP, _line_strips(n_patches, n))
+            draw_lines(Shape(surface, _line_strips(n_patches, n)), gl.GL_LINE_STRIP)
 
 
 @cache
@@ -72,9 +72,10 @@ def _bernstein(n: int) -> tuple[np.ndarray, np.ndarray]:
     return np.stack(values, axis=1), np.stack(slopes, axis=1)
 
 
-def _evaluated(name: str, scale: np.float32, n: int) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+@lru_cache(KEPT_SIZES)
+def _evaluated(name: str, scale_bits: bytes, n: int) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
     """Return the positions of all patches, and the tangents of the given ones; sums are in the order of freeglut."""
-    piece, table = PIECES[name], tables()[name]
+    piece, table, scale = PIECES[name], tables()[name], np.frombuffer(scale_bits, F32)[0]
     x, y, z = np.moveaxis(table["points"][table["patches"]].reshape(-1, 4, 4, 3), -1, 0)
     points = np.stack([x, z - F32(piece.middle), -y], axis=-1) * scale / F32(2)
     values, slopes = _bernstein(n)
@@ -108,7 +109,7 @@ def _normals(name: str, tangents: tuple[np.ndarray, np.ndarray], n: int) -> np.n
 def _repeated(patches: np.ndarray, piece: Piece) -> np.ndarray:
     """Return patches (number, n, n, 3) as rows of three numbers, each followed by its turned or mirrored copies."""
     if not piece.is_repeated:
-        return patches.reshape(-1, 3)
+        return patches.reshape(-1, 3).copy()
     parts = []
     for number, patch in enumerate(patches):
         x, y, z = np.moveaxis(patch, -1, 0)
@@ -120,9 +121,10 @@ def _repeated(patches: np.ndarray, piece: Piece) -> np.ndarray:
     return np.concatenate(parts)
 
 
-def _texcoords(n: int) -> np.ndarray:
+@cache
+def _texcoords(n_patches: int, n: int) -> np.ndarray:
     steps = np.arange(n, dtype=F32) / F32(n - 1)
-    return np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    return np.concatenate([np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)] * n_patches)
 
 
 @cache
