@@ -325,23 +325,17 @@ class Context(CurrentValues, Precision):
         frame.size = width, height
         self.begin_recording()
 
-    def draw(
-        self,
-        mode: int,
-        vertices: Vertices,
-        indices: np.ndarray | None = None,
-        change: Callable[[Draw], Draw] | None = None,
-    ) -> Draw:
-        """Draw primitives under the current state, or what `change` makes of that draw; return what was drawn.
+    def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None, pairs_mode: int = 0) -> Draw:
+        """Draw primitives under the current state; nobody may change the arrays afterwards.
 
-        Nobody may change the arrays afterwards.
+        `pairs_mode` is the mode of several strips that are separate primitives here (`Draw`).
         """
         if not self.ready:
             self.flush()
         self.update_current()
-        command = self.draw_command(mode, self.with_current(vertices), indices)
-        if change is not None:
-            command = change(command)
+        command = self.draw_command(mode, self._with_current(vertices), indices)
+        if pairs_mode:
+            command = command._replace(pairs_mode=pairs_mode)
         self._carry_out(command)
         return command
 
@@ -351,10 +345,10 @@ class Context(CurrentValues, Precision):
         `others` are modes, vertices with arrays of the same attributes, and indices.
         """
         for mode, same in groupby(others, itemgetter(0)):
-            with_current = [(self.with_current(vertices), indices) for _, vertices, indices in same]
+            with_current = [(self._with_current(vertices), indices) for _, vertices, indices in same]
             self._carry_out_alike(draws_like(before._replace(mode=mode), *zip(*with_current, strict=True)))
 
-    def with_current(self, vertices: Vertices) -> Vertices:
+    def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
         current = self.current
         if current.is_plain:

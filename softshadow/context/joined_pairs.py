@@ -75,7 +75,7 @@ class JoinedPairs:
         if corners is not None:
             return self.n_vertices % corners == 0
         if self._can_be_separated is None:
-            self._can_be_separated = can_be_separated(self.like)
+            self._can_be_separated = can_be_separated(self.like.state, self.like.mode)
         return self._can_be_separated
 
     def commands(self) -> Sequence[Draw | LateDraw]:

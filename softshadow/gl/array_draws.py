@@ -21,15 +21,19 @@ from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, can_draw, consecutive_indices, glBegin, glEnd
-from softshadow.gl.index_snapshots import Rows, snapshot_indices
+from softshadow.gl.index_snapshots import IndexSnapshot, Rows, snapshot_indices
+from softshadow.gl.joined_draws import joined_indices, joins_indexed
 from softshadow.gl.list_compiling import shares_vertices, used_rows
 from softshadow.gl.list_primitives import ListPrimitive
+from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.gl.vertex_arrays import DTYPES, arrays_in_use
 from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.geometry.separate import SEPARABLE
 
 INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
+MOST_UNUSED = 2  # vertices between those of primitives that are drawn at once, for each index
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
 
 
@@ -91,9 +95,29 @@ def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcoun
     elif min(counts, default=0) < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"count={counts}: expected 0 or more")
     elif context.arrays.element_buffer or all(place is not None for place in places):  # else Mesa draws nothing
-        for number, place in zip(counts, places, strict=True):
-            if number:
-                _draw_elements(operation, mode, number, type, place)
+        drawn = [(number, place) for number, place in zip(counts, places, strict=True) if number]
+        are_all = len(drawn) == len(places) > 1
+        if are_all and _draw_as_one(context, operation, int(mode), DTYPES[type], counts, indices):
+            return
+        for number, place in drawn:
+            _draw_elements(operation, mode, number, type, place)
+
+
+def _draw_as_one(
+    context: Context, operation: str, mode: int, dtype: np.dtype, counts: Sequence[int], places: Any
+) -> bool:
+    """Draw primitives with numbers of indices and their places at once; return False if it must be one by one."""
+    if context.compiled_list is not None or not can_be_joined(context) or not can_draw(context, operation):
+        return False
+    if not joins_indexed(context.drawn_state, mode):
+        return False
+    joined = joined_indices(context, operation, mode, dtype, counts, places)
+    if joined.highest - joined.lowest > MOST_UNUSED * sum(counts):
+        return False
+    rows = _named_rows(context, operation, joined)
+    if rows is not None:
+        context.draw(SEPARABLE[mode], _vertices(context, rows), joined.indices, mode)
+    return True
 
 
 def _draw_elements(operation: str, mode: int, count: int, type: int, indices: Any) -> None:
@@ -103,6 +127,11 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
     if not is_one_of(operation, "type", type, INDEX_TYPES, AN_INDEX_TYPE) or not can_draw(context, operation):
         return
     snapshot = snapshot_indices(context, operation, int(count), DTYPES[type], indices)
+    _draw(context, int(mode), _named_rows(context, operation, snapshot), snapshot.indices)
+
+
+def _named_rows(context: Context, operation: str, snapshot: IndexSnapshot) -> Rows | None:
+    """Return the rows that indices name, as `_rows` does."""
     arrays, rows = arrays_in_use(context), snapshot.rows
     if rows is None or snapshot.arrays != arrays:
         if snapshot.lowest < 0:
@@ -110,7 +139,7 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
         rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
         if rows is not None:
             snapshot.keep(arrays, rows)
-    _draw(context, int(mode), rows, snapshot.indices)
+    return rows
 
 
 def _flushed(operation: str) -> Context | None:

@@ -24,7 +24,7 @@ from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
 from softshadow.gl.pair_numbers import can_be_joined
-from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.geometry.separate import STRIPS, can_be_separated, pairs_mode_of, separate_indices
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT
 from softshadow.state import TEXTURE_UNITS
@@ -155,18 +155,12 @@ class SimilarPrimitives:
             return
         first, others, separate = self.primitives[0], self.primitives[1:], self._separate
         constants = first.begin_draw(context)
-
-        def joined(draw: Draw) -> Draw:
-            modes = [each.mode for each in self.primitives]
-            if separate is None or not (can_be_joined(context) and can_be_separated(draw, modes)):
-                return draw
-            vertices = context.with_current(separate.vertices(constants))
-            return draw._replace(
-                mode=gl.GL_TRIANGLES, vertices=vertices, indices=separate.indices, pairs_mode=pairs_mode_of(modes)
-            )
-
-        draw = context.draw(first.mode, first.vertices(constants), first.indices, joined)
-        if not draw.pairs_mode:
+        modes = [each.mode for each in self.primitives]
+        if separate is not None and can_be_joined(context) and can_be_separated(context.drawn_state, modes[0], modes):
+            vertices = separate.vertices(constants)
+            context.draw(gl.GL_TRIANGLES, vertices, separate.indices, pairs_mode_of(modes))
+        else:
+            draw = context.draw(first.mode, first.vertices(constants), first.indices)
             context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in others])
         self.primitives[-1].make_current(context)
         context.flush()

@@ -139,7 +139,12 @@ class SimilarPairs:
         buffer, draws, modes = self._context.vertex_buffer, [], series.modes[start:end]
         first = self._draw_of(modes[0], series.part(start, end))
         joins = can_be_joined(self._context)
-        if joins and STRIPS.issuperset(modes) and can_be_separated(first, modes) and not buffer.driver_draw.is_lost:
+        if (
+            joins
+            and STRIPS.issuperset(modes)
+            and can_be_separated(first.state, first.mode, modes)
+            and not buffer.driver_draw.is_lost
+        ):
             draws.append(separated(first, series.counts[start:end], modes))
         else:
             for mode, same in groupby(range(start, end), series.modes.__getitem__):
@@ -150,7 +155,7 @@ class SimilarPairs:
         """Return the draws of pairs in a row of one mode."""
         start, end = numbers[0], numbers[-1] + 1
         draw = self._draw_of(mode, series.part(start, end))
-        if joins and mode in SEPARABLE and can_be_separated(draw):
+        if joins and mode in SEPARABLE and can_be_separated(draw.state, mode):
             return [separated(draw, series.counts[start:end])]
         parts = [series.part(number, number + 1) for number in numbers]
         return draws_like(draw, [self._with_constants(part) for part in parts])

@@ -19,6 +19,7 @@ from softshadow.pipeline.geometry.lines import LINES, assemble_lines
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
+from softshadow.state import State
 
 SEPARABLE = {
     gl.GL_TRIANGLE_STRIP: gl.GL_TRIANGLES, gl.GL_TRIANGLE_FAN: gl.GL_TRIANGLES, gl.GL_POLYGON: gl.GL_TRIANGLES,
@@ -28,21 +29,20 @@ STRIPS = frozenset((gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_QUAD_STRIP))
 MOST_KNOWN = 64  # arrays of indices that are kept: a program draws the same primitives in every frame
 
 
-def can_be_separated(command: Draw, modes: Collection[int] = ()) -> bool:
-    """Return whether a draw of a mode in `SEPARABLE` has the same pixels with separate primitives.
+def can_be_separated(state: State, mode: int, modes: Collection[int] = ()) -> bool:
+    """Return whether a draw of a mode in `SEPARABLE` under a state has the same pixels with separate primitives.
 
     Not where lines may be stippled, as separate ones begin the pattern anew, nor where the first vertex gives flat
     colours, as that is another one then. Of polygons that are filled on one side only, Mesa treats a draw as a whole.
-    `modes` are those of all primitives, if they are in `STRIPS` and not all of the draw's mode: then polygons must be
-    filled, as the edges of quads and of triangles are not the same ones.
+    `modes` are those of all primitives, if they are in `STRIPS` and not all `mode`: then polygons must be filled, as
+    the edges of quads and of triangles are not the same ones.
     """
-    state = command.state
     if is_stippled(state.lines) or first_provokes(state):
         return False
     front, back = effective_modes(state)
     if len(set(modes)) > 1 and front != gl.GL_FILL:
         return False
-    return command.mode in LINES or front == back
+    return mode in LINES or front == back
 
 
 def separated(command: Draw, counts: tuple[int, ...], modes: tuple[int, ...] = ()) -> Draw:

@@ -142,5 +142,5 @@ def draw_faces_as_loops(surface: Surface, size: int) -> None:
 
 
 def _draw_rows(mode: int, rows: np.ndarray) -> None:
-    for row in rows:
-        gl.glDrawElements(mode, len(row), gl.GL_UNSIGNED_SHORT, row)
+    """Draw primitives of a mode; freeglut calls glDrawElements for each row."""
+    gl.glMultiDrawElements(mode, [rows.shape[1]] * len(rows), gl.GL_UNSIGNED_SHORT, rows, len(rows))
