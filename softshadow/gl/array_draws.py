@@ -22,7 +22,7 @@ from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
 from softshadow.gl.immediate import A_MODE, MODES, can_draw, consecutive_indices, glBegin, glEnd
 from softshadow.gl.index_snapshots import IndexSnapshot, Rows, snapshot_indices
-from softshadow.gl.joined_draws import joined_indices, joins_indexed
+from softshadow.gl.joined_draws import joined_indices, joined_ranges, joins
 from softshadow.gl.list_compiling import shares_vertices, used_rows
 from softshadow.gl.list_primitives import ListPrimitive
 from softshadow.gl.pair_numbers import can_be_joined
@@ -73,8 +73,12 @@ def glMultiDrawArrays(mode: int, first: Any, count: Any, drawcount: int) -> None
     if drawcount < 0 or min(counts, default=0) < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"count={counts}, drawcount={drawcount}: expected 0 or more")
     elif is_one_of(operation, "mode", mode, MODES, A_MODE) and can_draw(context, operation):
-        for begin, number in zip(firsts, counts, strict=True):
-            start = int(begin)
+        starts = [int(each) for each in firsts]
+        may_be_one = len(starts) == len(counts) > 1 and min(starts) >= 0 and _may_be_one(context, operation, mode)
+        joined = joined_ranges(context, int(mode), starts, counts) if may_be_one else None
+        if joined is not None and _draw_as_one(context, operation, int(mode), joined):
+            return
+        for start, number in zip(starts, counts, strict=True):
             _draw(context, int(mode), _rows(context, operation, start, start + int(number)), None)
 
 
@@ -96,23 +100,24 @@ def glMultiDrawElements(mode: int, count: Any, type: int, indices: Any, drawcoun
         fail(gl.GL_INVALID_VALUE, operation, f"count={counts}: expected 0 or more")
     elif context.arrays.element_buffer or all(place is not None for place in places):  # else Mesa draws nothing
         drawn = [(number, place) for number, place in zip(counts, places, strict=True) if number]
-        are_all = len(drawn) == len(places) > 1
-        if are_all and _draw_as_one(context, operation, int(mode), DTYPES[type], counts, indices):
-            return
+        if len(drawn) == len(places) > 1 and _may_be_one(context, operation, mode):
+            joined = joined_indices(context, operation, int(mode), DTYPES[type], counts, indices)
+            if _draw_as_one(context, operation, int(mode), joined):
+                return
         for number, place in drawn:
             _draw_elements(operation, mode, number, type, place)
 
 
-def _draw_as_one(
-    context: Context, operation: str, mode: int, dtype: np.dtype, counts: Sequence[int], places: Any
-) -> bool:
-    """Draw primitives with numbers of indices and their places at once; return False if it must be one by one."""
-    if context.compiled_list is not None or not can_be_joined(context) or not can_draw(context, operation):
+def _may_be_one(context: Context, operation: str, mode: int) -> bool:
+    """Return whether several primitives of a mode have the pixels of separate triangles or lines now."""
+    if context.compiled_list is not None or not can_be_joined(context) or not joins(context.drawn_state, mode):
         return False
-    if not joins_indexed(context.drawn_state, mode):
-        return False
-    joined = joined_indices(context, operation, mode, dtype, counts, places)
-    if joined.highest - joined.lowest > MOST_UNUSED * sum(counts):
+    return can_draw(context, operation)
+
+
+def _draw_as_one(context: Context, operation: str, mode: int, joined: IndexSnapshot) -> bool:
+    """Draw primitives of a mode by the indices of separate ones; return False if that reads too many vertices."""
+    if joined.highest - joined.lowest > MOST_UNUSED * len(joined.indices):
         return False
     rows = _named_rows(context, operation, joined)
     if rows is not None:

@@ -1,8 +1,8 @@
-"""Strips, fans and lines of glMultiDrawElements: one draw of separate triangles or lines, with the same pixels."""
+"""Strips, fans and lines of glMultiDraw...: one draw of separate triangles or lines, with the same pixels."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import repeat
 from typing import Any
 
@@ -15,12 +15,13 @@ from softshadow.pipeline.geometry.separate import SEPARABLE, can_be_separated, s
 from softshadow.state import State
 
 
-def joins_indexed(state: State, mode: int) -> bool:
-    """Return whether indexed primitives of a mode under a state have the same pixels as separate ones.
+def joins(state: State, mode: int) -> bool:
+    """Return whether primitives of a mode from arrays have the same pixels, under a state, as separate ones.
 
-    Not quad strips: how they are cut depends on all vertices between the lowest and the highest index of each.
+    Not quad strips: how one is cut depends on all vertices between its lowest and its highest index. Not polygons, as
+    it is known by the vertices of a triangle which one it belongs to, and those of arrays may be shared.
     """
-    return mode in SEPARABLE and mode != gl.GL_QUAD_STRIP and can_be_separated(state, mode)
+    return mode in SEPARABLE and mode not in (gl.GL_QUAD_STRIP, gl.GL_POLYGON) and can_be_separated(state, mode)
 
 
 def joined_indices(
@@ -41,22 +42,43 @@ def joined_indices(
     else:
         places = list(places)[: len(counts)]
         parts = [snapshot_indices(context, operation, *each) for each in zip(counts, repeat(dtype), places)]
-    pool, key = context.arrays.snapshots, ("joined", mode, counts[0], *map(id, parts))
+    key = "indices", mode, tuple(counts[:1]), *map(id, parts)
+
+    def join() -> IndexSnapshot:
+        lowest, highest = min(part.lowest for part in parts), max(part.highest for part in parts)
+        rows = [part.indices + np.int32(part.lowest - lowest) for part in parts]
+        return _separate(mode, counts, rows, lowest, highest)
+
+    return _kept(context, key, parts, join)
+
+
+def joined_ranges(context: Context, mode: int, firsts: Sequence[int], counts: Sequence[int]) -> IndexSnapshot:
+    """Return the indices of primitives of a mode, each of a number of vertices from the first on, as separate ones."""
+
+    def join() -> IndexSnapshot:
+        lowest, highest = min(firsts), max(map(sum, zip(firsts, counts, strict=True))) - 1
+        each = zip(firsts, counts, strict=True)
+        rows = [np.arange(first - lowest, first - lowest + count, dtype=np.int32) for first, count in each]
+        return _separate(mode, counts, rows, lowest, highest)
+
+    return _kept(context, ("ranges", mode, tuple(firsts), tuple(counts)), (), join)
+
+
+def _kept(context: Context, key: tuple[Any, ...], parts: Any, join: Callable[[], IndexSnapshot]) -> IndexSnapshot:
+    """Return what was joined before, if it is kept, together with the parts whose ids are in the key."""
+    pool, key = context.arrays.snapshots, ("joined", *key)
     known = pool.use(key)
     if known is None:
-        joined = _joined(mode, counts, parts)
-        known = joined, parts  # which keep their ids
-        pool.put(key, known, 2 * joined.indices.nbytes)
+        known = join(), parts
+        pool.put(key, known, 2 * known[0].indices.nbytes)
     found: IndexSnapshot = known[0]
     return found
 
 
-def _joined(mode: int, counts: Sequence[int], parts: Sequence[IndexSnapshot]) -> IndexSnapshot:
-    lowest, highest = min(part.lowest for part in parts), max(part.highest for part in parts)
-    flat = np.concatenate([part.indices + np.int32(part.lowest - lowest) for part in parts])
-    indices = flat[separate_indices((mode,) * len(counts), tuple(counts))]
+def _separate(mode: int, counts: Sequence[int], rows: Sequence[np.ndarray], lowest: int, highest: int) -> IndexSnapshot:
+    indices = np.concatenate(rows)[separate_indices((mode,) * len(counts), tuple(counts))]
     indices.setflags(write=False)
     return IndexSnapshot(indices, lowest, highest, None, indices, 0)
 
 
-__all__ = ["joined_indices", "joins_indexed"]
+__all__ = ["joined_indices", "joined_ranges", "joins"]

@@ -40,11 +40,14 @@ def test_pixels_depths_and_numbers_are_those_of_freeglut(tmp_path: Path, text: s
 
 
 def single(calls: list[tuple[str, list[Any]]]) -> Iterator[tuple[str, list[Any]]]:
-    """Yield the calls; those that glMultiDrawElements stands for instead of it."""
+    """Yield the calls; instead of glMultiDraw... the calls for which it stands."""
     for name, arguments in calls:
         if name == "glMultiDrawElements":
             mode, counts, kind, places, _ = arguments
             yield from (("glDrawElements", [mode, *each]) for each in zip(counts, repeat(kind), places, strict=False))
+        elif name == "glMultiDrawArrays":
+            mode, firsts, counts, _ = arguments
+            yield from (("glDrawArrays", [mode, *each]) for each in zip(firsts, counts, strict=True))
         else:
             yield name, arguments
 

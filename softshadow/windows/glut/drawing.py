@@ -136,8 +136,8 @@ def draw_lines(shape: Shape, mode: int) -> None:
 def draw_faces_as_loops(surface: Surface, size: int) -> None:
     """Draw a line loop for each `size` vertices."""
     _begin(surface)
-    for first in range(0, len(surface.positions), size):
-        gl.glDrawArrays(gl.GL_LINE_LOOP, first, size)
+    firsts = range(0, len(surface.positions), size)
+    gl.glMultiDrawArrays(gl.GL_LINE_LOOP, list(firsts), [size] * len(firsts), len(firsts))  # glDrawArrays in freeglut
     _end(surface)
 
 
