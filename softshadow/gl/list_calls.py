@@ -24,6 +24,7 @@ from softshadow.gl.conversions import (
 MAKE_OTHERS = (
     "glVertex2fv", "glVertex3fv", "glVertex4fv", "glNormal3fv", "glColor3fv", "glColor4fv", "glTexCoord2fv",
 )  # fmt: skip
+FLOATS = {float}
 EXACT = 2**53  # integers up to here are exact in float64
 Values = tuple[float, ...]
 
@@ -47,7 +48,11 @@ class AttributeCall:
         if self.is_vector:
             (params,) = arguments
             return (*(float(value) for value in vector(params, self.count, self.convert)), *self.rest)
-        if len(arguments) != self.count or not all(map(_is_plain, arguments)):
+        if len(arguments) != self.count:
+            return None
+        if self.convert is float and set(map(type, arguments)) == FLOATS:
+            return (*arguments, *self.rest)
+        if not all(map(_is_plain, arguments)):
             return None
         return (*(float(self.convert(value)) for value in arguments), *self.rest)
 

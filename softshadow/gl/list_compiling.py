@@ -6,7 +6,7 @@ came before.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import groupby
 from typing import Any
@@ -41,6 +41,17 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
         elif function not in CALLS:
             begin = -1
     return with_similar_joined(_with_joined(compiled))
+
+
+def is_open(calls: Sequence[Callable[[], Any]]) -> bool:
+    """Return whether the calls recorded until now may have begun a primitive that has not ended."""
+    for call in reversed(calls):
+        function = getattr(call, "func", None)
+        if function is BEGIN:
+            return True
+        if function not in CALLS:  # glEnd, or a call that may not stand between glBegin and glEnd
+            return False
+    return False
 
 
 def _with_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
@@ -155,4 +166,4 @@ def _has_names(call: partial[Any]) -> bool:
     return bool(call.keywords)
 
 
-__all__ = ["shares_vertices", "used_rows", "with_primitives"]
+__all__ = ["is_open", "shares_vertices", "used_rows", "with_primitives"]

@@ -7,12 +7,18 @@ drawn together without their calls where that is decided already (`similar_pairs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from softshadow.context import Context, thread
-from softshadow.gl.immediate import glBegin, glEnd, glVertex3f
+from softshadow.context.arrays import SLOTS
+from softshadow.context.display_list import DisplayList
+from softshadow.gl.immediate import consecutive_indices, glBegin, glEnd, glVertex3f
+from softshadow.gl.list_compiling import is_open
+from softshadow.gl.list_primitives import ListPrimitive
 from softshadow.gl.similar_pairs import PairSeries, PairVertices, first_pairs, similar_pairs
 from softshadow.gl.texture_coordinates import glTexCoord2f
 from softshadow.gl.vertex_attributes import glNormal3f
@@ -62,6 +68,20 @@ class Strip:
                 break
         if not self._add_rest(thread.context, vertices):
             make_all(self.calls[n_made:])
+        glEnd()
+
+    def listed(self, arrays: Mapping[str, np.ndarray]) -> ListPrimitive:
+        """Return the strip as display lists have it; `arrays` are the rows of its vertices."""
+        rows = {SLOTS[name]: array for name, array in arrays.items()}
+        starts = {SLOTS[name]: start for name, start in self.starts.items()}
+        last = {SLOTS[name]: changes[-1][1] for name, changes in self.changes.items()}
+        indices = consecutive_indices(len(self.positions) // 4)
+        return ListPrimitive([self._make], self.mode, rows, starts, last, self.sizes.copy(), indices)
+
+    def _make(self) -> None:
+        """Make the calls, with glBegin and glEnd."""
+        glBegin(self.mode)
+        make_all(self.calls)
         glEnd()
 
     def leave_attributes(self, context: Context) -> None:
@@ -131,8 +151,12 @@ class Strips:
         return True
 
     def draw(self) -> None:
-        """Draw them, as many as possible without their calls."""
+        """Draw them, as many as possible without their calls, or record them in the list that is being compiled."""
         context, first, n_done = thread.context, self.strips[0], 0
+        compiled = context.compiled_list
+        if compiled is not None and not compiled.executes and not is_open(compiled.calls):
+            self._record(context, compiled)
+            return
         make_all(self._calls[0])
         similar = first_pairs(context, first.mode, first.sizes, first.starts, len(first.positions) // 4)
         while n_done < len(self.strips):
@@ -145,6 +169,13 @@ class Strips:
             if n_done < len(self.strips):
                 self._draw_by_calls(n_done)
                 similar, n_done = None, n_done + 1
+
+    def _record(self, context: Context, compiled: DisplayList) -> None:
+        """Add the strips to a list as `list_compiling` makes them of their calls."""
+        series = self._series_for(context)
+        for number, (strip, calls) in enumerate(zip(self.strips, self._calls, strict=True)):
+            make_all(calls)
+            compiled.calls.append(strip.listed(series.part(number, number + 1).arrays))
 
     def _draw_by_calls(self, number: int) -> None:
         """Draw a strip by its calls; those before the first one have been made."""
