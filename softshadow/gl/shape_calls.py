@@ -7,128 +7,16 @@ drawn together without their calls where that is decided already (`similar_pairs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from softshadow.context import Context, thread
-from softshadow.context.arrays import SLOTS
 from softshadow.context.display_list import DisplayList
-from softshadow.gl.immediate import consecutive_indices, glBegin, glEnd, glVertex3f
 from softshadow.gl.list_compiling import is_open
-from softshadow.gl.list_primitives import ListPrimitive
-from softshadow.gl.similar_pairs import PairSeries, PairVertices, first_pairs, similar_pairs
-from softshadow.gl.texture_coordinates import glTexCoord2f
-from softshadow.gl.vertex_attributes import glNormal3f
-
-Call = tuple[Callable[..., None], tuple[float, ...]]
-NAMES = {glNormal3f: "normal", glTexCoord2f: "texcoord0"}
-SIZES = {"normal": 3, "texcoord0": 2}  # components that these calls set
-
-
-def make_all(calls: Iterable[Call]) -> None:
-    """Make calls."""
-    for call, arguments in calls:
-        call(*arguments)
-
-
-def complete(values: tuple[float, ...]) -> tuple[float, ...]:
-    """Return what the arguments of a call that sets an attribute make of it: two are texture coordinates."""
-    return values if len(values) == 3 else (*values, 0.0, 1.0)
-
-
-class Strip:
-    """A glBegin ... glEnd pair.
-
-    Attributes
-    ----------
-    calls : list             between glBegin and glEnd
-    positions : list         x, y, z, w of each vertex
-    changes : dict           attribute: (length of `positions`, value) of each call that sets it
-    """
-
-    def __init__(self, mode: int) -> None:
-        self.mode = mode
-        self.calls: list[Call] = []
-        self.positions: list[float] = []
-        self.changes: dict[str, list[tuple[int, tuple[float, ...]]]] = {}
-
-    def draw(self, vertices: PairVertices) -> None:
-        """Draw the vertices, of which there are arrays."""
-        thread.context.vertex_buffer.paused = None  # a primitive of its own can have arrays
-        glBegin(self.mode)
-        n_made, n_vertices = 0, 0
-        for call, arguments in self.calls:
-            call(*arguments)
-            n_made += 1
-            n_vertices += call is glVertex3f
-            if n_vertices > self.latest:
-                break
-        if not self._add_rest(thread.context, vertices):
-            make_all(self.calls[n_made:])
-        glEnd()
-
-    def listed(self, arrays: Mapping[str, np.ndarray]) -> ListPrimitive:
-        """Return the strip as display lists have it; `arrays` are the rows of its vertices."""
-        rows = {SLOTS[name]: array for name, array in arrays.items()}
-        starts = {SLOTS[name]: start for name, start in self.starts.items()}
-        last = {SLOTS[name]: changes[-1][1] for name, changes in self.changes.items()}
-        indices = consecutive_indices(len(self.positions) // 4)
-        return ListPrimitive([self._make], self.mode, rows, starts, last, self.sizes.copy(), indices)
-
-    def _make(self) -> None:
-        """Make the calls, with glBegin and glEnd."""
-        glBegin(self.mode)
-        make_all(self.calls)
-        glEnd()
-
-    def leave_attributes(self, context: Context) -> None:
-        """Make the values of the last calls the current ones."""
-        for name, changes in self.changes.items():
-            context.set_attribute(name, changes[-1][1])
-
-    @cached_property
-    def sizes(self) -> dict[str, int]:
-        """Components of positions and attributes that the calls set."""
-        return {"position": 3} | {name: SIZES[name] for name in self.changes}
-
-    @cached_property
-    def starts(self) -> dict[str, int]:
-        """The first vertex that has a value of each attribute; those before have the current one."""
-        return {name: changes[0][0] // 4 for name, changes in self.changes.items()}
-
-    @cached_property
-    def latest(self) -> int:
-        """The first vertex that has values of all attributes."""
-        return max(self.starts.values(), default=0)
-
-    def _add_rest(self, context: Context, vertices: PairVertices) -> bool:
-        """Do what the calls after the vertex `latest` do; return False where that is more than to add numbers."""
-        primitive, made = context.primitive, 4 * self.latest + 4
-        if primitive is None or len(primitive.positions) != made or primitive.position_size != 3:
-            return False
-        if len(self.positions) >= primitive.limit:
-            return False
-        numbers = {name: sum(start < made for start, _ in changes) for name, changes in self.changes.items()}
-        for name, number in numbers.items():
-            if primitive.steady.get(name) != SIZES[name] or len(primitive.changes[name]) != number + 1:
-                return False
-        primitive.positions += self.positions[made:]
-        for name, changes in self.changes.items():
-            primitive.changes[name] += changes[numbers[name] :]
-            context.set_attribute(name, changes[-1][1])
-        arrays, starts = vertices.arrays, self.starts
-        primitive.arrays = {name: rows for name, rows in arrays.items() if not starts.get(name)}
-        return True
-
-    def rows(self, name: str, before: Any) -> list[Any]:
-        """Return the value of an attribute at each vertex; `before` until it is set for the first time."""
-        changes = self.changes[name]
-        starts, ends = [0, *(start for start, _ in changes)], [*(start for start, _ in changes), len(self.positions)]
-        repeated = zip([before, *(value for _, value in changes)], starts, ends, strict=True)
-        return [value for value, start, end in repeated for _ in range(start, end, 4)]
+from softshadow.gl.shape_strips import CALLS, NAMES, REST, Call, Changes, Strip, make_all
+from softshadow.gl.similar_pairs import PairSeries, first_pairs, similar_pairs
 
 
 class Strips:
@@ -158,7 +46,7 @@ class Strips:
             self._record(context, compiled)
             return
         make_all(self._calls[0])
-        similar = first_pairs(context, first.mode, first.sizes, first.starts, len(first.positions) // 4)
+        similar = first_pairs(context, first.mode, first.sizes, first.starts, first.count)
         while n_done < len(self.strips):
             if n_done and similar is None:
                 similar = similar_pairs(context, first.sizes)
@@ -188,23 +76,25 @@ class Strips:
         series = self._series.get(context.real)
         if series is None:
             strips, first = self.strips, self.strips[0]
-            arrays = {"position": context.frozen([x for strip in strips for x in strip.positions]).reshape(-1, 4)}
+            positions = np.concatenate([strip.positions for strip in strips])
+            arrays = {"position": context.frozen(np.insert(positions, 3, 1.0, axis=1))}
             for name in first.changes:
-                arrays[name] = context.frozen(self._rows(name))
-            counts = [len(strip.positions) // 4 for strip in strips]
-            modes = [strip.mode for strip in strips]
+                values = self._rows(name)
+                rest = np.broadcast_to(np.array(REST[name]), (len(values), len(REST[name])))
+                arrays[name] = context.frozen(np.hstack([values, rest]))
+            counts, modes = [strip.count for strip in strips], [strip.mode for strip in strips]
             series = self._series[context.real] = PairSeries(arrays, modes, counts, first.starts)
         return series
 
-    def _rows(self, name: str) -> list[Any]:
-        """Return the value of an attribute at each vertex of all strips; any value before the first one is set."""
-        rows: list[Any] = []
-        latest: tuple[float, ...] = self.strips[0].changes[name][0][1]
+    def _rows(self, name: str) -> np.ndarray:
+        """Return the values of an attribute at each vertex of all strips; any value before the first one is set."""
+        rows = []
+        latest = self.strips[0].changes[name].values[0]
         for strip, calls in zip(self.strips, self._calls, strict=True):
-            latest = next((complete(value) for call, value in reversed(calls) if NAMES[call] == name), latest)
-            rows += strip.rows(name, latest)
-            latest = strip.changes[name][-1][1]
-        return rows
+            latest = next((np.array(value) for call, value in reversed(calls) if NAMES[call] == name), latest)
+            rows.append(strip.rows(name, latest))
+            latest = strip.changes[name].values[-1]
+        return np.concatenate(rows)
 
 
 class Calls:
@@ -212,7 +102,6 @@ class Calls:
 
     def __init__(self) -> None:
         self._parts: list[Strip | Call] = []
-        self._strip: Strip | None = None
 
     def make(self) -> None:
         """Make the calls."""
@@ -235,35 +124,13 @@ class Calls:
             calls = []
         return rows, calls
 
-    def begin(self, mode: int) -> None:
-        """Add glBegin."""
-        self._strip = Strip(mode)
-        self._parts.append(self._strip)
+    def set(self, name: str, *value: float) -> None:
+        """Add the call that sets an attribute, before the next strip."""
+        self._parts.append((CALLS[name], tuple(map(float, value))))
 
-    def end(self) -> None:
-        """Add glEnd."""
-        self._strip = None
-
-    def vertex(self, x: float, y: float, z: float) -> None:
-        """Add glVertex3f, after `begin`."""
-        assert self._strip is not None
-        self._strip.calls.append((glVertex3f, (x, y, z)))
-        self._strip.positions += (x, y, z, 1.0)
-
-    def normal(self, x: float, y: float, z: float) -> None:
-        """Add glNormal3f."""
-        self._attribute("normal", (glNormal3f, (x, y, z)))
-
-    def coordinates(self, s: float, t: float) -> None:
-        """Add glTexCoord2f."""
-        self._attribute("texcoord0", (glTexCoord2f, (s, t)))
-
-    def _attribute(self, name: str, call: Call) -> None:
-        if self._strip is None:
-            self._parts.append(call)
-            return
-        self._strip.calls.append(call)
-        self._strip.changes.setdefault(name, []).append((len(self._strip.positions), complete(call[1])))
+    def strip(self, mode: int, positions: np.ndarray, **changes: Changes) -> None:
+        """Add a glBegin ... glEnd pair of vertices at positions (N, 3), whose calls make changes of attributes."""
+        self._parts.append(Strip(mode, np.asarray(positions, np.float64), changes))
 
 
-__all__ = ["Calls", "Strip"]
+__all__ = ["Calls"]

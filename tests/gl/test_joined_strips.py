@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.shape_writer import ShapeWriter
 from softshadow import gl
 from softshadow.gl import list_primitives, similar_pairs
 from softshadow.gl.shape_calls import Calls
@@ -46,7 +47,7 @@ def random_shape(random: Random) -> Calls:
     Some vertices are there several times: a display list keeps them once.
     """
     with_normals, late_often = random.random() < 0.8, random.choice((0.0, 0.4))
-    calls, points = Calls(), [[random.uniform(-1.6, 1.6) for _ in range(3)] for _ in range(4)]
+    calls, points = ShapeWriter(), [[random.uniform(-1.6, 1.6) for _ in range(3)] for _ in range(4)]
     for _ in range(random.randint(1, 6)):
         if random.random() < 0.5:
             calls.normal(*[random.uniform(-1.0, 1.0) for _ in range(3)])
@@ -59,7 +60,7 @@ def random_shape(random: Random) -> Calls:
             repeats = random.random() < 0.2
             calls.vertex(*(random.choice(points) if repeats else [random.uniform(-reach, reach) for _ in range(3)]))
         calls.end()
-    return calls
+    return calls.calls
 
 
 def make(shape: Calls) -> None:

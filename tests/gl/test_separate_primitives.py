@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.shape_writer import ShapeWriter
 from softshadow import gl
 from softshadow.gl import immediate
-from softshadow.gl.shape_calls import Calls
 from softshadow.inspection.validate_recording import validate_frame
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.commands import Draw
@@ -179,14 +179,14 @@ def test_loops_of_two_debug_groups_are_two_draws() -> None:
 
 def test_shapes_keep_the_arrays_of_their_strips() -> None:
     """What is derived from the same arrays is found again."""
-    shape = Calls()
+    shape = ShapeWriter()
     shape.begin(gl.GL_TRIANGLE_STRIP)
     for n in range(5):
         shape.vertex(float(n), 0.0, 0.0)
     shape.end()
     with gl.create_context(8, 8) as context:
-        shape.make()
-        shape.make()
+        shape.calls.make()
+        shape.calls.make()
         first, second = context.frame.commands
     assert first.vertices.position is second.vertices.position
 
@@ -234,3 +234,19 @@ def test_feedback_names_each_polygon() -> None:
             gl.glEnd()
         tokens = [token for token, *_ in gl.glRenderMode(gl.GL_RENDER)]
     assert tokens == 2 * [gl.GL_LINE_RESET_TOKEN, *3 * [gl.GL_LINE_TOKEN]]
+
+
+@pytest.mark.parametrize("n", [12, 64, 150])
+def test_a_sphere_of_many_slices_is_computed_once(n: int) -> None:
+    """Also one that fills Mesa's vertex buffer: then some strips are drawn by their calls."""
+    quadric = gl.gluNewQuadric()
+    with gl.create_context(8, 8) as context:
+        for _ in range(2):
+            gl.gluSphere(quadric, 0.5, n, n)
+            gl.glTranslatef(0.1, 0.0, 0.0)
+        draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+    half = len(draws) // 2
+    assert 1 <= half < 10
+    assert all(one.vertices is other.vertices for one, other in zip(draws[:half], draws[half:], strict=True)) or n > 64
+    ids = [{id(draw.vertices) for draw in each} for each in (draws[:half], draws[half:])]
+    assert ids[0] & ids[1]

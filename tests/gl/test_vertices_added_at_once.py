@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.shape_writer import ShapeWriter, call_by_call
 from softshadow import gl
 from softshadow.context import vertex_buffer
 from softshadow.gl import evaluators, immediate
-from softshadow.gl.shape_calls import Calls, Strip
+from softshadow.gl.shape_calls import Calls
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, lines_or_points_of
 from softshadow.pipeline.geometry.lines import LINES
@@ -104,7 +105,7 @@ class RandomShapes:
         return lambda draw: draw(shape)
 
     def _shape(self, rng: np.random.Generator) -> Calls:
-        calls, has_normals, has_coordinates = Calls(), rng.random() < 0.7, rng.random() < 0.4
+        calls, has_normals, has_coordinates = ShapeWriter(), rng.random() < 0.7, rng.random() < 0.4
         modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
         most = int(rng.choice([5, 8, 40]))  # after a few vertices, Mesa makes the next ones carry a colour set between
         is_run = rng.random() < 0.5  # of strips that are drawn together
@@ -123,23 +124,11 @@ class RandomShapes:
                     calls.coordinates(*rng.normal(size=2).tolist())
                 calls.vertex(*rng.normal(size=3).tolist())
             calls.end()
-        return calls
+        return calls.calls
 
     def draw(self, draw: Callable[[Calls], None]) -> None:
         for part in self.parts:
             part(draw)
-
-
-def call_by_call(shape: Calls) -> None:
-    for part in shape._parts:
-        if isinstance(part, Strip):
-            gl.glBegin(part.mode)
-            for call, arguments in part.calls:
-                call(*arguments)
-            gl.glEnd()
-        else:
-            call, arguments = part
-            call(*arguments)
 
 
 @pytest.mark.parametrize("n_bytes", [vertex_buffer.BYTES, 4096])
@@ -160,14 +149,14 @@ def test_a_shape_in_an_incomplete_framebuffer_draws_nothing() -> None:
 
 
 def strips(count: int, length: int) -> Calls:
-    calls = Calls()
+    calls = ShapeWriter()
     for strip in range(count):
         calls.begin(gl.GL_TRIANGLE_STRIP)
         for vertex in range(length):
             calls.normal(0.0, 0.0, float(vertex))
             calls.vertex(float(vertex), 0.0, float(strip))
         calls.end()
-    return calls
+    return calls.calls
 
 
 def test_strips_with_kept_materials_give_the_draws_of_their_calls() -> None:
@@ -187,7 +176,7 @@ def test_strips_with_kept_materials_give_the_draws_of_their_calls() -> None:
 
 
 def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -> None:
-    lines = Calls()
+    lines = ShapeWriter()
     for strip in range(6):
         lines.begin(gl.GL_LINE_STRIP)
         for vertex in range(5):
@@ -197,7 +186,7 @@ def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -
     def program(draw: Callable[[Calls], None]) -> None:
         gl.glEnable(gl.GL_LINE_STIPPLE)
         gl.glLineStipple(3, 0x5F31)
-        draw(lines)
+        draw(lines.calls)
 
     at_once = draws_of(partial(program, Calls.make))
     assert len({stipple_place for _, _, _, stipple_place, *_ in at_once[2::2]}) > 1
@@ -205,15 +194,15 @@ def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -
 
 
 def test_strips_use_their_arrays() -> None:
-    calls = Calls()
+    calls = ShapeWriter()
     calls.begin(gl.GL_TRIANGLE_STRIP)
     for n in range(5):
         calls.normal(0.0, 0.0, float(n))
         calls.vertex(float(n), 0.0, 0.0)
     calls.end()
     with gl.create_context(8, 8) as context:
-        calls.make()
-        calls.make()
+        calls.calls.make()
+        calls.calls.make()
         first, second = (command for command in context.frame.commands if isinstance(command, Draw))
     assert first.vertices.position is second.vertices.position
     assert first.vertices.normal[:, 2].tolist() == [0, 1, 2, 3, 4]
