@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +27,8 @@ from softshadow.gl.shape_calls import Calls
 from softshadow.gl.shape_strips import Changes
 
 F32 = np.float32
+KEPT_TABLES = 64  # and spheres, but for their radii
+NO_NORMALS = np.empty((0, 3))
 
 
 class Manner(NamedTuple):
@@ -45,26 +48,43 @@ class Around(NamedTuple):
 
     def at(self, i: Any, radius: Any, z: Any) -> np.ndarray:
         """Return the points (m, 3) float64 at angles, with float32 radii and heights."""
-        x, y, z = np.broadcast_arrays(self.sines[i] * radius, self.cosines[i] * radius, z)
-        return np.stack([x, y, z], axis=-1).astype(np.float64)
+        x = self.sines[i] * radius
+        points = np.empty((*x.shape, 3))
+        points[..., 0], points[..., 1], points[..., 2] = x, self.cosines[i] * radius, z
+        return points
 
 
-def _around(angles: Iterable[float], scale: float = 1.0) -> Around:
-    """Return sines and cosines, times a scale, of angles rounded to float32."""
+class Tables(NamedTuple):
+    """Sines and cosines of angles rounded to float32: float64 (n,)."""
+
+    sines: np.ndarray
+    cosines: np.ndarray
+
+    def scaled(self, scale: float = 1.0) -> Around:
+        """Return them times a scale, rounded to float32."""
+        return Around((scale * self.sines).astype(F32), (scale * self.cosines).astype(F32))
+
+
+def _tables(angles: Iterable[float]) -> Tables:
     rounded = [float(F32(angle)) for angle in angles]
-    sines, cosines = ([scale * f(angle) for angle in rounded] for f in (math.sin, math.cos))
-    return Around(np.array(sines, F32), np.array(cosines, F32))
+    return Tables(*[np.array([function(angle) for angle in rounded]) for function in (math.sin, math.cos)])
 
 
-def _circle(n: int, shift: float = 0.0, scale: float = 1.0) -> Around:
-    """Return n angles around the axis, and the first one again."""
-    around = _around((2 * math.pi * (i - shift) / n for i in range(n)), scale)
-    return Around(*[np.append(each, each[0]) for each in around])
+@lru_cache(KEPT_TABLES)
+def _circle(n: int, shift: float = 0.0) -> Tables:
+    """Return the tables of n angles around the axis, and the first one again."""
+    return Tables(*[np.append(each, each[0]) for each in _tables(2 * math.pi * (i - shift) / n for i in range(n))])
 
 
-def _ratio(a: np.ndarray, b: int) -> np.ndarray:
+@lru_cache(KEPT_TABLES)
+def _turns(stacks: int, shift: float = 0.0) -> Tables:
+    """Return the tables of the angles from pole to pole."""
+    return _tables(math.pi * (j - shift) / stacks for j in range(stacks + 1))
+
+
+def _ratio(a: Any, b: int) -> np.ndarray:
     """Return a quotient of integers in float32."""
-    return a.astype(F32) / F32(b)
+    return np.asarray(a, F32) / F32(b)
 
 
 def _each(values: np.ndarray, first: int = 0) -> Changes:
@@ -72,41 +92,70 @@ def _each(values: np.ndarray, first: int = 0) -> Changes:
     return Changes(np.arange(first, first + len(values)), values)
 
 
+class Part(NamedTuple):
+    """A strip of a sphere of any radius.
+
+    `normal` is set before it, `i` and `j` count its vertices around and along the axis; `tip` is -1 or 1 for a fan
+    around a pole, which comes first, else 0.
+    """
+
+    normal: tuple[float, ...]
+    mode: int
+    i: Any
+    j: Any
+    tip: float
+    changes: dict[str, Changes]
+
+
 def sphere(quad: Manner, radius: float, slices: int, stacks: int) -> Calls:
     """Return the calls of gluSphere."""
-    calls, outside = Calls(), quad.orientation == GLU_OUTSIDE
+    calls, around = Calls(), _circle(slices).scaled()
+    ring, height = _turns(stacks).scaled(radius)
+    ring[0] = ring[stacks] = 0.0
+    for part in _sphere_parts(quad, slices, stacks):
+        if part.normal:
+            calls.set("normal", *part.normal)
+        positions = around.at(part.i, ring[part.j], height[part.j])
+        if part.tip:
+            positions = np.concatenate([[[0.0, 0.0, part.tip * radius]], positions])
+        calls.strip(part.mode, positions, **part.changes)
+    return calls
+
+
+@lru_cache(KEPT_TABLES)
+def _sphere_parts(quad: Manner, slices: int, stacks: int) -> list[Part]:
+    parts, outside = list[Part](), quad.orientation == GLU_OUTSIDE
     sign = 1.0 if outside else -1.0
     smooth, flat = quad.normals == GLU_SMOOTH, quad.normals == GLU_FLAT
-    around, flat_around = _circle(slices), _circle(slices, 0.5)
-    turns = [math.pi * j / stacks for j in range(stacks + 1)]
-    ring, height = _around(turns, float(radius))
-    ring[0] = ring[stacks] = 0.0
-    normal_ring, normal_height = _around(turns, sign)
-    flat_ring, flat_height = _around((math.pi * (j - 0.5) / stacks for j in range(stacks + 1)), sign)
-    every = np.arange(slices + 1)
+    around, flat_around = _circle(slices).scaled(), _circle(slices, 0.5).scaled()
+    (ring, height), (flat_ring, flat_height) = _turns(stacks).scaled(sign), _turns(stacks, 0.5).scaled(sign)
+    every, down = np.arange(slices + 1), np.arange(stacks + 1)
 
-    def strip(mode: int, i: Any, j: Any, **normal: Changes) -> None:
-        i, j = np.broadcast_arrays(i, j)
+    def strip(mode: int, i: Any, j: Any, **changes: Changes) -> None:
         if quad.has_texture:
-            coordinates = np.stack([1 - _ratio(i, slices).astype(float), 1 - _ratio(j, stacks).astype(float)], axis=1)
-            normal["texcoord0"] = _each(coordinates)
-        calls.strip(mode, around.at(i, ring[j], height[j]), **normal)
+            s, t = np.broadcast_arrays(1 - _ratio(i, slices).astype(float), 1 - _ratio(j, stacks).astype(float))
+            changes["texcoord0"] = _each(np.stack([s, t], axis=1))
+        parts.append(Part((), mode, i, j, 0.0, changes))
 
-    def normals(i: Any, j: Any) -> np.ndarray:
-        return around.at(i, normal_ring[j], normal_height[j])
+    def with_normals(mode: int, i: Any, j: Any, flat_normals: np.ndarray) -> None:
+        """Add a strip with a normal before each vertex."""
+        if smooth or flat:
+            strip(mode, i, j, normal=_each(around.at(i, ring[j], height[j]) if smooth else flat_normals))
+        else:
+            strip(mode, i, j)
 
     def cap(j: int, pole: int, flat_j: int, order: np.ndarray, skips: bool) -> None:
-        normal: dict[str, Changes] = {}
+        before: tuple[float, ...] = ()
+        changes: dict[str, Changes] = {}
         if smooth:
             # libGLU takes this entry for the lower pole, behind its table if there are more stacks than slices
-            calls.set("normal", *normals(pole if pole <= slices else 0, pole).tolist())
-            normal["normal"] = _each(normals(order, j), 1)
+            before = tuple(around.at(pole if pole <= slices else 0, ring[pole], height[pole]).tolist())
+            changes["normal"] = _each(around.at(order, ring[j], height[j]), 1)
         elif flat:
             places = np.flatnonzero(~(skips & (order == slices)))
             values = flat_around.at(order[places] + skips, flat_ring[flat_j], flat_height[flat_j])
-            normal["normal"] = Changes(places + 1, values)
-        tip = [[0.0, 0.0, radius if pole == 0 else -radius]]
-        calls.strip(gl.GL_TRIANGLE_FAN, np.concatenate([tip, around.at(order, ring[j], height[j])]), **normal)
+            changes["normal"] = Changes(places + 1, values)
+        parts.append(Part(before, gl.GL_TRIANGLE_FAN, order, j, 1.0 if pole == 0 else -1.0, changes))
 
     if quad.style == GLU_FILL:
         first, end = 0, stacks
@@ -117,35 +166,23 @@ def sphere(quad: Manner, radius: float, slices: int, stacks: int) -> Calls:
         both = np.repeat(every, 2)
         for j in range(first, end):
             pair = np.tile((j + 1, j) if outside else (j, j + 1), slices + 1)
-            if smooth:
-                strip(gl.GL_QUAD_STRIP, both, pair, normal=_each(normals(both, pair)))
-            elif flat:
+            if flat:
                 values = flat_around.at(every, flat_ring[j + 1], flat_height[j + 1])
                 strip(gl.GL_QUAD_STRIP, both, pair, normal=Changes(2 * every + 1, values))
             else:
-                strip(gl.GL_QUAD_STRIP, both, pair)
-        return calls
-    down = np.arange(stacks + 1)
-
-    def with_normals(mode: int, i: Any, j: Any, flat_normals: np.ndarray) -> None:
-        """Draw a strip with a normal before each vertex."""
-        if smooth or flat:
-            strip(mode, i, j, normal=_each(normals(i, j) if smooth else flat_normals))
-        else:
-            strip(mode, i, j)
-
-    if quad.style == GLU_POINT:
+                with_normals(gl.GL_QUAD_STRIP, both, pair, NO_NORMALS)
+    elif quad.style == GLU_POINT:
         columns, rows = np.tile(every[:-1], stacks + 1), np.repeat(down, slices)
-        if smooth:
-            strip(gl.GL_POINTS, columns, rows, normal=_each(normals(columns, rows)))
-        else:
+        if flat:
             strip(gl.GL_POINTS, columns, rows)
-        return calls
-    for j in range(1, stacks):
-        with_normals(gl.GL_LINE_STRIP, every, j, flat_around.at(every, normal_ring[j], normal_height[j]))
-    for i in range(slices):
-        with_normals(gl.GL_LINE_STRIP, i, down, around.at(i, flat_ring, flat_height))
-    return calls
+        else:
+            with_normals(gl.GL_POINTS, columns, rows, NO_NORMALS)
+    else:
+        for j in range(1, stacks):
+            with_normals(gl.GL_LINE_STRIP, every, j, flat_around.at(every, ring[j], height[j]))
+        for i in range(slices):
+            with_normals(gl.GL_LINE_STRIP, i, down, around.at(i, flat_ring, flat_height))
+    return parts
 
 
 def slant(base: float, top: float, height: float) -> np.float32:
@@ -160,8 +197,8 @@ def cylinder(quad: Manner, base: float, top: float, height: float, slices: int, 
     delta, length = F32(base - top), slant(base, top, height)
     sign = 1.0 if quad.orientation == GLU_OUTSIDE else -1.0
     normal_z, ratio = F32(delta / length), float(F32(height / float(length)))
-    around = _circle(slices)
-    smooth, flat = _circle(slices, 0.0, sign * ratio), _circle(slices, 0.5, sign * ratio)
+    around = _circle(slices).scaled()
+    smooth, flat = _circle(slices).scaled(sign * ratio), _circle(slices, 0.5).scaled(sign * ratio)
     sides = flat if quad.normals == GLU_FLAT else smooth
     every, up = np.arange(slices + 1), np.arange(stacks + 1)
 
@@ -200,7 +237,7 @@ def disk(quad: Manner, inner: float, outer: float, slices: int, loops: int, star
     calls, outside = Calls(), quad.orientation == GLU_OUTSIDE
     is_whole = sweep == 360
     delta, offset = F32(outer - inner), float(F32(start / 180.0 * math.pi))
-    around = _around(offset + (math.pi * sweep / 180.0) * i / slices for i in range(slices + 1))
+    around = _tables(offset + (math.pi * sweep / 180.0) * i / slices for i in range(slices + 1)).scaled()
     if is_whole:
         for table in around:
             table[slices] = table[0]

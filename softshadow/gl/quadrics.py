@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
+from softshadow.context.arrays import Cache
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.glu_tokens import (
     GLU_ERROR,
@@ -29,8 +29,7 @@ from softshadow.gl.quadric_shapes import Manner, cylinder, disk, slant, sphere
 from softshadow.gl.shape_calls import Calls
 
 MOST = 239  # slices and stacks
-KEPT_SHAPES, KEPT_PLACES = 32, 20_000  # shapes that are kept, and their largest slices * stacks: below 150 MB
-KEPT_LARGE = 4  # of those with more
+KEPT_SHAPES, KEPT_BYTES = 4096, 150 << 20  # of the latest shapes
 
 
 @dataclass(eq=False)
@@ -98,17 +97,18 @@ def gluQuadricDrawStyle(quad: GLUquadric, draw: int) -> None:
         quad.fail(GLU_INVALID_ENUM)
 
 
-def _draw(shape: Callable[..., Calls], quad: GLUquadric, places: int, *numbers: float) -> None:
+def _draw(shape: Callable[..., Calls], quad: GLUquadric, *numbers: float) -> None:
     """Carry out the calls of a shape."""
-    make = _kept if places <= KEPT_PLACES else _kept_large
-    make(shape, quad.manner(), *numbers).make()
+    manner = quad.manner()
+    key = shape, manner, *numbers
+    calls: Calls | None = _kept.use(key)
+    if calls is None:
+        calls = shape(manner, *numbers)
+        _kept.put(key, calls, calls.bytes)
+    calls.make()
 
 
-def _made(shape: Callable[..., Calls], manner: Manner, *numbers: float) -> Calls:
-    return shape(manner, *numbers)
-
-
-_kept, _kept_large = lru_cache(KEPT_SHAPES)(_made), lru_cache(KEPT_LARGE)(_made)
+_kept = Cache(KEPT_BYTES, KEPT_SHAPES)
 
 
 # -- drawing -----------------------------------------------------------------------------------------------------------
@@ -118,7 +118,7 @@ def gluSphere(quad: GLUquadric, radius: float, slices: int, stacks: int) -> None
     if slices < 2 or stacks < 1 or radius < 0:
         quad.fail(GLU_INVALID_VALUE)
         return
-    _draw(sphere, quad, slices * stacks, float(radius), slices, stacks)
+    _draw(sphere, quad, float(radius), slices, stacks)
 
 
 def gluCylinder(quad: GLUquadric, base: float, top: float, height: float, slices: int, stacks: int) -> None:
@@ -130,7 +130,7 @@ def gluCylinder(quad: GLUquadric, base: float, top: float, height: float, slices
     if slant(base, top, height) == 0:
         quad.fail(GLU_INVALID_VALUE)
         return
-    _draw(cylinder, quad, slices * stacks, float(base), float(top), float(height), slices, stacks)
+    _draw(cylinder, quad, float(base), float(top), float(height), slices, stacks)
 
 
 def gluDisk(quad: GLUquadric, inner: float, outer: float, slices: int, loops: int) -> None:
@@ -149,7 +149,7 @@ def gluPartialDisk(
     sweep = 360.0 if abs(sweep) > 360 else sweep
     if sweep < 0:
         start, sweep = start + sweep, -sweep
-    _draw(disk, quad, slices * loops, float(inner), float(outer), slices, loops, float(start), float(sweep))
+    _draw(disk, quad, float(inner), float(outer), slices, loops, float(start), float(sweep))
 
 
 __all__ = [*spelled_like_gl(globals()), "GLUquadric"]

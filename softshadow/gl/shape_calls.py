@@ -18,6 +18,8 @@ from softshadow.gl.list_compiling import is_open
 from softshadow.gl.shape_strips import CALLS, NAMES, REST, Call, Changes, Strip, make_all
 from softshadow.gl.similar_pairs import PairSeries, first_pairs, similar_pairs
 
+STRIP_BYTES, VERTEX_BYTES = 2500, 160  # of a strip and its vertices, with all arrays that are made of them
+
 
 class Strips:
     """Strips in a row whose vertices set the same attributes, with the calls before each of them.
@@ -102,6 +104,12 @@ class Calls:
 
     def __init__(self) -> None:
         self._parts: list[Strip | Call] = []
+
+    @property
+    def bytes(self) -> int:
+        """About how much memory the shape takes when it has been drawn."""
+        counts = [part.count for part in self._parts if isinstance(part, Strip)]
+        return STRIP_BYTES * len(counts) + VERTEX_BYTES * sum(counts)
 
     def make(self) -> None:
         """Make the calls."""

@@ -120,6 +120,8 @@ class Strip:
     def rows(self, name: str, before: np.ndarray) -> np.ndarray:
         """Return the values (N, 2 or 3) of an attribute at each vertex; `before` until it is set for the first time."""
         places, values = self.changes[name]
+        if len(places) == self.count and places[0] == 0:
+            return values
         latest = np.searchsorted(places, np.arange(self.count), side="right")
         return np.concatenate([before[np.newaxis], values])[latest]
 

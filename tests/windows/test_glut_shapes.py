@@ -65,10 +65,10 @@ def test_the_latest_shapes_are_kept(context: Context, monkeypatch: pytest.Monkey
     shape = drawing.kept(make)
     for number in (1, 2, 1, 3, 2, 1):
         shape(number)
-    assert made == [1, 2, 3, 1]
-    monkeypatch.setattr(drawing, "KEPT_VERTICES", 9)
+    assert made == [1, 2, 3, 2, 1]
+    monkeypatch.setattr(drawing, "MOST_VERTICES", 9)
     shape(10)
     shape(10)
-    assert made[4:] == [10, 10]
+    assert made[5:] == [10, 10]
     with pytest.raises(ValueError, match="read-only"):
         shape(1).surface.positions[0] = 1

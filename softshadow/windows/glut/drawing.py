@@ -11,10 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow import gl
+from softshadow.context.arrays import Cache
 from softshadow.windows.desktop import desktop
 
 MOST_VERTICES = 1 << 16  # that indices of 16 bits can name
-KEPT_SHAPES, KEPT_VERTICES = 64, 1 << 13  # shapes that are kept, and how many vertices each may have: below 25 MB
+KEPT_SHAPES, KEPT_BYTES = 4096, 50 << 20  # of the latest shapes
+KEPT_SIZES = 256  # in which the latest pieces of one form were drawn
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,12 @@ class Shape(NamedTuple):
     rows: np.ndarray
     loops: np.ndarray | None = None
 
+    @property
+    def bytes(self) -> int:
+        """The bytes of its arrays."""
+        arrays = self.surface.positions, self.surface.normals, self.rows, self.loops
+        return sum(array.nbytes for array in arrays if array is not None)
+
 
 def fixed(array: np.ndarray) -> np.ndarray:
     """Return an array that owns its numbers as one that nobody can change."""
@@ -51,19 +59,17 @@ def fixed(array: np.ndarray) -> np.ndarray:
 
 def kept(make: Callable[..., Shape]) -> Callable[..., Shape]:
     """Keep the latest shapes that a function makes of numbers: programs draw the same ones in every frame."""
-    known: dict[tuple[Any, ...], Shape] = {}
+    known = Cache(KEPT_BYTES, KEPT_SHAPES)
 
     @wraps(make)
     def shape(*numbers: Any) -> Shape:
         # by the bits of float32: zeros of both signs are equal numbers
         key = tuple([each.tobytes() if isinstance(each, np.float32) else each for each in numbers])
-        found = known.get(key)
+        found: Shape | None = known.use(key)
         if found is None:
             found = make(*numbers)
-            if len(found.surface.positions) <= KEPT_VERTICES:
-                if len(known) >= KEPT_SHAPES:
-                    del known[next(iter(known))]
-                known[key] = found
+            if len(found.surface.positions) <= MOST_VERTICES:  # of others, `indices` tells each program
+                known.put(key, found, found.bytes)
         return found
 
     return shape

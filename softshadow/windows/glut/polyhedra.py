@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.windows.glut.drawing import KEPT_SHAPES, Surface, count, draw_faces_as_loops, draw_triangles, indices
+from softshadow.windows.glut.drawing import KEPT_SIZES, Surface, count, draw_faces_as_loops, draw_triangles, indices
 
 # how a face is cut into triangles, by its number of corners
 TRIANGLES = {4: (0, 1, 2, 0, 2, 3), 5: (0, 1, 2, 0, 2, 4, 4, 2, 3)}
@@ -60,7 +60,7 @@ def draw_cube(solid: bool, size: float) -> None:
     _draw(solid, _cube(np.float32(size).tobytes()), "cube")
 
 
-@lru_cache(KEPT_SHAPES)
+@lru_cache(KEPT_SIZES)
 def _cube(size_bits: bytes) -> Surface:
     unit = polyhedron("cube")
     return Surface(np.frombuffer(size_bits, np.float32) * unit.positions, unit.normals)

@@ -12,12 +12,11 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import gl
-from softshadow.windows.glut.drawing import Shape, Surface, draw_lines, draw_triangles, indices
+from softshadow.windows.glut.drawing import KEPT_SIZES, Shape, Surface, draw_lines, draw_triangles, indices
 from softshadow.windows.glut.polyhedra import tables
 
 F32 = np.float32
 QUARTERS = 6
-KEPT_SIZES = 32  # of pieces whose vertices are kept
 SOLID, WIRE = 8, 10  # vertices along each side of a patch
 
 
