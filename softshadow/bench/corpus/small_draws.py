@@ -360,13 +360,47 @@ def clock(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
     return frame
 
 
+def snowmen(gl: Any, size: tuple[int, int]) -> DrawNumberedFrame:
+    """Snowmen of GLU's spheres and cones, each of a size of its own, lit; their eyes shrink and grow."""
+    quadric = gl.gluNewQuadric()
+
+    def snowman(height: float, eye: float) -> None:
+        gl.glPushMatrix()
+        for radius in (0.5, 0.35, 0.2):
+            gl.glTranslatef(0.0, 1.3 * radius * height, 0.0)
+            gl.glColor3f(1.0, 1.0, 1.0)
+            gl.gluSphere(quadric, radius * height, 16, 12)
+        gl.glColor3f(0.0, 0.0, 0.0)
+        for side in (-0.07, 0.07):
+            gl.glPushMatrix()
+            gl.glTranslatef(side * height, 0.05 * height, 0.18 * height)
+            gl.gluSphere(quadric, eye * height, 8, 6)
+            gl.glPopMatrix()
+        gl.glColor3f(1.0, 0.5, 0.1)
+        gl.gluCylinder(quadric, 0.05 * height, 0.0, 0.4 * height, 10, 2)
+        gl.glPopMatrix()
+
+    def frame(number: int) -> None:
+        look(gl, size, (0.0, 3.0, 9.0))
+        clear(gl)
+        light(gl)
+        gl.glRotatef(2.0 * number, 0.0, 1.0, 0.0)
+        for i in range(16):
+            gl.glPushMatrix()
+            gl.glTranslatef(1.6 * (i % 4) - 2.4, -0.8, 1.6 * (i // 4) - 2.4)
+            snowman(0.7 + 0.03 * i, 0.03 + 0.01 * math.sin(0.3 * number))
+            gl.glPopMatrix()
+
+    return frame
+
+
 PROGRAMS = tuple(
     replace(each, name=f"{FAMILY}/{each.name}")
     for each in map(
         program,
         (
             pencil_sketch, dashed_boxes, widgets, leaves, stars, four_views, depth_of_field, surface_plot,
-            watched_cubes, sized_points, wall_of_bricks, curves, clock,
+            watched_cubes, sized_points, wall_of_bricks, curves, clock, snowmen,
         ),
     )
 )  # fmt: skip
