@@ -13,7 +13,7 @@ from softshadow.gl.errors import outside_begin
 from softshadow.gl.refusals import CONVERTING, refusal, refuse_text
 from softshadow.gl.wrapping import Wrapping
 
-NUMBERS = frozenset((float, int, bool))
+NUMBERS = frozenset((float, int, bool))  # types of which nobody can change a value
 Call = TypeVar("Call", bound=Callable[..., Any])
 
 
@@ -30,11 +30,8 @@ def record(context: Context, call: Callable[..., Any], *arguments: Any, **named:
     """Record a call in the display list that is being compiled; with GL_COMPILE_AND_EXECUTE, also carry it out."""
     compiled = context.compiled_list
     assert compiled is not None
-    if not NUMBERS.issuperset(map(type, arguments)):
-        arguments_then = map(_snapshot, arguments)
-        compiled.calls.append(functools.partial(call, *arguments_then, **named))
-    else:
-        compiled.calls.append(functools.partial(call, *arguments, **named))
+    kept = arguments if NUMBERS.issuperset(map(type, arguments)) else map(_snapshot, arguments)
+    compiled.calls.append(functools.partial(call, *kept, **named))
     return execute_listed(context, call, *arguments, **named) if compiled.executes else None
 
 

@@ -1,8 +1,8 @@
 """glBegin ... glEnd pairs in a row that differ in nothing but their vertices, such as the strips of a sphere.
 
-The first pair sets the vertex format, by its calls, unless that is done in another way. The others have the
-same format and the same state, so they are one draw of separate triangles or lines; where that has other pixels, their
-draws are copies of one draw with other vertices.
+The first pair sets the vertex format: by its calls, unless no vertices are collected before it, or those that are have
+the format already. The others have the same format and the same state, so they are one draw of separate triangles or
+lines; where that has other pixels, their draws are copies of one draw with other vertices.
 """
 
 from __future__ import annotations
@@ -139,12 +139,8 @@ class SimilarPairs:
         buffer, draws, modes = self._context.vertex_buffer, [], series.modes[start:end]
         first = self._draw_of(modes[0], series.part(start, end))
         joins = can_be_joined(self._context)
-        if (
-            joins
-            and STRIPS.issuperset(modes)
-            and can_be_separated(first.state, first.mode, modes)
-            and not buffer.driver_draw.is_lost
-        ):
+        joins_modes = joins and STRIPS.issuperset(modes) and not buffer.driver_draw.is_lost
+        if joins_modes and can_be_separated(first.state, first.mode, modes):
             draws.append(separated(first, series.counts[start:end], modes))
         else:
             for mode, same in groupby(range(start, end), series.modes.__getitem__):
@@ -240,4 +236,4 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     return SimilarPairs(context, sizes)
 
 
-__all__ = ["PairSeries", "PairVertices", "SimilarPairs", "first_pairs", "similar_pairs"]
+__all__ = ["NO_STARTS", "PairSeries", "PairVertices", "SimilarPairs", "first_pairs", "similar_pairs"]

@@ -57,8 +57,8 @@ class RecentTriangles:
 def triangles_key(command: Draw) -> tuple[Hashable, ...]:
     """Return what the clipped triangles of a draw depend on besides its state."""
     return (
-        id(command.vertices.position), id(command.indices), command.mode, command.modelview.tobytes(),
-        command.projection.tobytes(), command.modelview_kind, command.projection_kind,
+        id(command.vertices.position), id(command.indices), command.mode, command.pairs_mode,
+        command.modelview.tobytes(), command.projection.tobytes(), command.modelview_kind, command.projection_kind,
     )  # fmt: skip
 
 

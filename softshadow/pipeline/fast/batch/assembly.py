@@ -140,10 +140,9 @@ def write_joined_strips(corners, start, in_stages, codes, triangles, provoking, 
 @kernel
 def continues_strip(corners, t):
     """Return whether triangles t and t + 1 are a quad that goes on where the quad before them ends."""
-    begins = (
-        corners[t - 1, 0] == corners[t, 0] and corners[t - 1, 2] == corners[t, 1] if t < corners.shape[0] else False
-    )
-    return begins and is_quad_of_strip(corners, t)
+    if not is_quad_of_strip(corners, t):
+        return False
+    return corners[t - 1, 0] == corners[t, 0] and corners[t - 1, 2] == corners[t, 1]
 
 
 @kernel
