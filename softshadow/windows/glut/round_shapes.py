@@ -66,11 +66,16 @@ def draw_sphere(solid: bool, radius: Any, slices: Any, stacks: Any) -> None:
 
 @kept
 def _sphere(solid: bool, radius: np.float32, slices: int, stacks: int) -> Shape:
+    unit = _unit_sphere(solid, slices, stacks)
+    return unit._replace(surface=Surface(unit.surface.normals * radius, unit.surface.normals))
+
+
+@kept
+def _unit_sphere(solid: bool, slices: int, stacks: int) -> Shape:
     around, down = _circle(-slices), _circle(stacks, 1)
     rings = [_ring(slices, around, down[stack, 1], down[stack, 0]) for stack in range(1, stacks)]
     normals = np.concatenate([np.array([UP], F32), *rings, np.array([DOWN], F32)])
-    surface = Surface(normals * radius, normals)
-    last = len(normals) - 1
+    surface, last = Surface(normals, normals), len(normals) - 1
     firsts = range(1, last, slices)
     if solid:
         closed = [_closed(first, slices) for first in firsts]
