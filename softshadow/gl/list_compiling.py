@@ -14,11 +14,13 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import NORMAL, POSITION, SLOT_NAMES, TEXCOORD
+from softshadow.context.arrays import COLOR, NORMAL, POSITION, SLOT_NAMES, TEXCOORD
+from softshadow.gl.calls import NUMBERS
 from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
 from softshadow.gl.list_joining import joined
 from softshadow.gl.list_primitives import ListPrimitive, with_similar_joined
+from softshadow.gl.textures import glBindTexture
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 from softshadow.state import TEXTURE_UNITS
@@ -40,7 +42,40 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
             begin = -1
         elif function not in CALLS:
             begin = -1
-    return with_similar_joined(_with_joined(compiled))
+    return with_similar_joined(_without_repeats(_with_joined(compiled)))
+
+
+def _without_repeats(calls: list[Any]) -> list[Callable[[], Any]]:
+    """Return the calls of a list without those that set the colour, or bind the texture, of the call before.
+
+    Programs that read models from files set the material of each face.
+    """
+    result: list[Callable[[], Any]] = []
+    color: Any = None  # the latest calls whose effect lasts
+    texture: Any = None
+    for call in calls:
+        function = getattr(call, "func", None)
+        if function is glBindTexture:
+            if texture is not None and _is_same(texture, call):
+                continue
+            texture = call
+        elif function in CALLS and CALLS[function].slot == COLOR:
+            if color is not None and _is_same(color, call):
+                continue
+            color = call
+        elif isinstance(call, ListPrimitive):
+            color = None if COLOR in call.starts else color
+        elif function not in CALLS:
+            color = texture = None
+        result.append(call)
+    return result
+
+
+def _is_same(one: partial[Any], other: partial[Any]) -> bool:
+    """Return whether two calls have the same numbers, bit for bit."""
+    if one.func is not other.func or one.keywords or other.keywords:
+        return False
+    return NUMBERS.issuperset(map(type, one.args + other.args)) and repr(one.args) == repr(other.args)
 
 
 def is_open(calls: Sequence[Callable[[], Any]]) -> bool:

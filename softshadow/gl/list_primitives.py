@@ -25,7 +25,8 @@ from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.pipeline.commands import Vertices
-from softshadow.pipeline.geometry.separate import STRIPS, can_be_separated, pairs_mode_of, separate_indices
+from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, pairs_mode_of, separate_indices
+from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT
 from softshadow.state import TEXTURE_UNITS
 
@@ -141,8 +142,8 @@ class ListPrimitive:
 class SimilarPrimitives:
     """Primitives in a row of a list that set the same attributes at their first vertices, but no colour.
 
-    No colour, as materials may follow it. So their draws differ in modes and vertices only. Strips and fans are one
-    draw of separate triangles, where that has the same pixels.
+    No colour, as materials may follow it. So their draws differ in modes and vertices only. Those of one mode, and
+    strips and fans, are one draw of separate primitives, where that has the same pixels.
     """
 
     primitives: list[ListPrimitive]
@@ -155,10 +156,8 @@ class SimilarPrimitives:
             return
         first, others, separate = self.primitives[0], self.primitives[1:], self._separate
         constants = first.begin_draw(context)
-        modes = [each.mode for each in self.primitives]
-        if separate is not None and can_be_joined(context) and can_be_separated(context.drawn_state, modes[0], modes):
-            vertices = separate.vertices(constants)
-            context.draw(gl.GL_TRIANGLES, vertices, separate.indices, pairs_mode_of(modes))
+        if separate is not None and can_be_joined(context) and can_be_separated(context.drawn_state, *self._modes):
+            context.draw(separate.mode, separate.vertices(constants), separate.indices, self._pairs_mode)
         else:
             draw = context.draw(first.mode, first.vertices(constants), first.indices)
             context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in others])
@@ -166,15 +165,31 @@ class SimilarPrimitives:
         context.flush()
 
     @cached_property
+    def _modes(self) -> tuple[int, frozenset[int]]:
+        """The mode of the first one, and the modes of all."""
+        return self.primitives[0].mode, frozenset(primitive.mode for primitive in self.primitives)
+
+    @cached_property
+    def _pairs_mode(self) -> int:
+        """Their `Draw.pairs_mode`: none for primitives that are separate already."""
+        first, modes = self._modes
+        return 0 if first in SEPARATE else pairs_mode_of([*modes])
+
+    @cached_property
     def _separate(self) -> ListPrimitive | None:
-        """All of them as separate triangles; None if they cannot be."""
+        """All of them as separate primitives; None if they cannot be."""
+        first, modes = self._modes
+        if len(modes) > 1 and not STRIPS.issuperset(modes):
+            return None
         if not all(_can_be_separate(primitive) for primitive in self.primitives):
             return None
-        joined = joined_primitive(self.primitives, gl.GL_TRIANGLES, np.empty(0, np.int32))
+        joined = joined_primitive(self.primitives, SEPARABLE.get(first, first), np.empty(0, np.int32))
         parts, start = [], 0
         for primitive in self.primitives:
             indices = primitive.indices + np.int32(start)
-            parts.append(indices[separate_indices((primitive.mode,), (len(indices),))])
+            if primitive.mode in SEPARABLE:
+                indices = indices[separate_indices((primitive.mode,), (len(indices),))]
+            parts.append(indices)
             start += len(primitive.rows[POSITION])
         joined.indices = np.concatenate(parts)
         joined.indices.setflags(write=False)
@@ -182,13 +197,15 @@ class SimilarPrimitives:
 
 
 def _can_be_separate(primitive: ListPrimitive) -> bool:
-    """Return whether a primitive may become separate triangles.
+    """Return whether a primitive may become separate ones.
 
     Mesa looks whether a quad strip is clipped at all vertices that the indices span, so all of them must be in quads.
+    Separate quads with indices are always cut in one way.
     """
-    count = len(primitive.indices)
-    all_in_quads = primitive.mode != gl.GL_QUAD_STRIP or (count % 2 == 0 and count <= INDEXED_SEGMENT)
-    return primitive.mode in STRIPS and all_in_quads
+    mode, count = primitive.mode, len(primitive.indices)
+    if mode in SEPARATE:
+        return count % SEPARATE[mode] == 0
+    return mode != gl.GL_QUAD_STRIP or (count % 2 == 0 and count <= INDEXED_SEGMENT)
 
 
 def joined_primitive(members: Sequence[ListPrimitive], mode: int, indices: np.ndarray) -> ListPrimitive:

@@ -224,7 +224,7 @@ def test_lists_of_arrays_draw_what_their_calls_draw(monkeypatch, seed):
     # rules of Mesa's arrays: see mesa/test_list_contents.py and mesa/test_incomplete_primitives_in_lists.py
     monkeypatch.setattr(list_compiling, "joined", lambda run, **_: run)
     monkeypatch.setattr(list_primitives, "_is_left_out", lambda _: False)
-    monkeypatch.setattr(list_primitives, "STRIPS", ())  # no draws of several strips: see test_joined_strips.py
+    monkeypatch.setattr(list_primitives, "can_be_joined", lambda _: False)  # see test_joined_strips.py
     ours = what_happened(calls, precision)
     monkeypatch.setattr(lists, "with_primitives", lambda context, calls: calls)
     expected = what_happened(calls, precision)

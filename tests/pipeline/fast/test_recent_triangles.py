@@ -21,7 +21,7 @@ seeds = st.integers(0, 2**32 - 1)
 @pytest.fixture(autouse=True)
 def hits(monkeypatch):
     """Let small draws be compared, too; return the list of what was found."""
-    monkeypatch.setattr(geometry, "WORTH_COMPARING", 1)
+    monkeypatch.setattr(geometry, "least_compared", lambda _: 1)
     monkeypatch.setattr(geometry, "SMALL", 0)
     monkeypatch.setattr(geometry_cache, "FEW_VERTICES", 0)
     monkeypatch.setattr(plan, "LONG_DRAW", 40)
