@@ -109,7 +109,7 @@ def test_faces_of_a_list_have_the_pixels_of_single_ones(seeds: range, monkeypatc
         buffers, draws = drawn(seed)
         assert buffers == joined[seed][0], seed
         n_joined, n_single = n_joined + len(joined[seed][1]), n_single + len(draws)
-    assert n_joined < 0.7 * n_single
+    assert n_joined < 0.85 * n_single
 
 
 def faces(mode: int, *, colors: bool, texture: int = 0) -> None:

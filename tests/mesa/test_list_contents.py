@@ -110,3 +110,36 @@ def test_enable_accepts_the_arrays_of_client_memory():
 
     comparison = compare(program, (33, 20))
     assert comparison, str(comparison)
+
+
+@pytest.mark.parametrize("lit", [False, True])
+@pytest.mark.parametrize(
+    "mode", ["GL_POLYGON", "GL_QUADS", "GL_TRIANGLES", "GL_TRIANGLE_FAN", "GL_QUAD_STRIP", "GL_LINE_LOOP"]
+)
+def test_a_model_that_sets_the_material_of_each_face(mode, lit):
+    """Its faces are one draw, and materials that are set again are left out."""
+
+    def program(gl):
+        rng = np.random.default_rng(3)
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glEnable(gl.GL_LIGHT0)
+        (gl.glEnable if lit else gl.glDisable)(gl.GL_LIGHTING)
+        gl.glNewList(1, gl.GL_COMPILE)
+        for face in range(80):
+            gl.glColor3f(0.5, 0.25, face // 30 / 2)
+            gl.glBegin(getattr(gl, mode))
+            corner = rng.uniform(-1.1, 1.1, 3)
+            for _ in range(3 if mode == "GL_TRIANGLES" else 4):
+                gl.glNormal3f(*rng.normal(size=3))
+                gl.glVertex3f(*(corner + rng.uniform(-0.4, 0.4, 3)))
+            gl.glEnd()
+        gl.glEndList()
+        for switch in (gl.GL_COLOR_MATERIAL, gl.GL_CULL_FACE):
+            gl.glCallList(1)
+            gl.glEnable(switch)
+            gl.glMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE, (0.1, 0.9, 0.3, 1.0))
+            gl.glRotatef(20.0, 1.0, 1.0, 0.0)
+        gl.glCallList(1)
+
+    comparison = compare(program, (33, 20))
+    assert comparison, str(comparison)
