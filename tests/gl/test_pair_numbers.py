@@ -7,7 +7,7 @@ import pytest
 
 from softshadow import gl
 from softshadow.context import vertex_buffer
-from softshadow.gl import pair_numbers
+from softshadow.gl import list_primitives, pair_numbers
 
 NUMBERS = (0.0, -0.0, 0.25, 1.0, -3.5, 1e30, float("nan"))
 ATTRIBUTES = (
@@ -254,6 +254,7 @@ def test_meshes_of_points_have_the_colours_of_their_maps(context, monkeypatch, f
 @pytest.mark.parametrize("list_mode", [None, gl.GL_COMPILE, gl.GL_COMPILE_AND_EXECUTE])
 def test_rectangles_are_quads_also_where_the_buffer_is_full(monkeypatch, list_mode):
     monkeypatch.setattr(vertex_buffer, "BYTES", 4096)
+    monkeypatch.setattr(list_primitives, "can_be_joined", lambda _: False)  # pairs in a list: test_faces_in_lists.py
 
     def rectangle(x):
         gl.glRectf(x, 0, x + 1, 2)
