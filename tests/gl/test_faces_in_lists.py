@@ -155,3 +155,18 @@ def test_what_may_change_the_colour_lets_it_be_set_again() -> None:
         assert sum(getattr(each, "__name__", "") == "glColor3f" for each in names) == 5
         gl.glCallList(1)
         assert gl.glGetFloatv(gl.GL_CURRENT_COLOR).tolist() == [0.5, 0.25, 0.0, 1.0]
+
+
+def test_a_face_that_sets_colours_lets_the_one_before_be_set_again() -> None:
+    with gl.create_context(8, 8):
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.glColor3f(1.0, 0.0, 0.0)
+        gl.glBegin(gl.GL_TRIANGLES)
+        for x, y in ((0.0, 0.0), (0.1, 0.0), (0.1, 0.1)):
+            gl.glColor3f(0.0, 0.0, 1.0)
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+        gl.glColor3f(1.0, 0.0, 0.0)
+        gl.glEndList()
+        gl.glCallList(1)
+        assert gl.glGetFloatv(gl.GL_CURRENT_COLOR).tolist() == [1.0, 0.0, 0.0, 1.0]
