@@ -5,6 +5,7 @@ from random import Random
 import numpy as np
 import pytest
 
+from gl.primitives_in_a_row import buffers_and_draws, set_where_order_matters
 from softshadow import gl
 from softshadow.gl import list_compiling, lists
 from softshadow.pipeline import use_short_cuts
@@ -64,15 +65,8 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
     random = Random(seed)
     with gl.create_context(24, 18) as context:
         names = textures(np.random.default_rng(seed))
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glEnable(gl.GL_STENCIL_TEST)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_INVERT, gl.GL_INCR)
+        set_where_order_matters()
         gl.glEnable(gl.GL_LIGHT0)
-        gl.glPolygonOffset(1.0, 4.0)
-        gl.glLineStipple(2, 0xA3C5)
-        gl.glPolygonStipple(np.arange(128, dtype=np.uint8).tobytes())
-        gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.5, 0.25, 0.5))
-        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
         for _ in range(5):
             random.choice((gl.glEnable, gl.glDisable))(random.choice(SWITCHES))
             if random.random() < 0.3:
@@ -87,13 +81,11 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
                 gl.glCallList(1)
                 if random.random() < 0.3:
                     gl.glRectf(-0.5, -0.5, 0.3, 0.4)
-        gl.glFinish()
-        window = context.storage.window
-        buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
+        buffers, draws = buffers_and_draws(context)
         for name in (gl.GL_CURRENT_COLOR, gl.GL_CURRENT_NORMAL, gl.GL_TEXTURE_BINDING_2D):
             buffers.append(np.asarray(gl.glGetFloatv(name)).tobytes())
         buffers.append(np.asarray(gl.glGetMaterialfv(gl.GL_FRONT, gl.GL_DIFFUSE)).tobytes())
-        return buffers, [command for command in context.frame.commands if isinstance(command, Draw)]
+        return buffers, draws
 
 
 @pytest.mark.parametrize("seeds", [range(start, start + 25) for start in range(0, 200, 25)], ids=str)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.primitives_in_a_row import buffers_and_draws, set_where_order_matters
 from gl.shape_writer import ShapeWriter
 from softshadow import gl
 from softshadow.gl import list_primitives, similar_pairs
@@ -80,13 +81,8 @@ def drawn(seed: int, draw: Callable[[Calls], None]) -> tuple[list[bytes], list[D
     """Return the buffers that random shapes under random states leave, and their draws."""
     random = Random(seed)
     with gl.create_context(24, 18) as context:
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glEnable(gl.GL_STENCIL_TEST)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_INVERT, gl.GL_INCR)
+        set_where_order_matters()
         gl.glEnable(gl.GL_LIGHT0)
-        gl.glPolygonStipple(np.arange(128, dtype=np.uint8).tobytes())
-        gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.5, 0.25, 0.5))
-        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
         for _ in range(5):
             random.choice((gl.glEnable, gl.glDisable))(random.choice(SWITCHES))
             if random.random() < 0.4:
@@ -96,10 +92,7 @@ def drawn(seed: int, draw: Callable[[Calls], None]) -> tuple[list[bytes], list[D
                 gl.glPolygonMode(faces, random.choice((gl.GL_FILL, gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)))
             gl.glColor3f(random.random(), random.random(), random.random())
             draw(random_shape(random))
-        gl.glFinish()
-        window = context.storage.window
-        buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
-        return buffers, [command for command in context.frame.commands if isinstance(command, Draw)]
+        return buffers_and_draws(context)
 
 
 @pytest.mark.parametrize("seeds", [range(start, start + 20) for start in range(0, 120, 20)], ids=str)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.primitives_in_a_row import buffers_and_draws, set_where_order_matters
 from softshadow import gl
 from softshadow.gl import array_draws
 from softshadow.inspection.validate_recording import validate_frame
@@ -48,13 +49,7 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
     """Return the buffers that many draws under random states leave, and the draws."""
     random, rng = Random(seed), np.random.default_rng(seed)
     with gl.create_context(24, 18) as context:
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glEnable(gl.GL_STENCIL_TEST)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_INVERT, gl.GL_INCR)
-        gl.glLineStipple(2, 0xA3C5)
-        gl.glPolygonStipple(np.arange(128, dtype=np.uint8).tobytes())
-        gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.5, 0.25, 0.5))
-        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+        set_where_order_matters()
         for _ in range(6):
             random.choice((gl.glEnable, gl.glDisable))(random.choice(SWITCHES))
             if random.random() < 0.3:
@@ -76,11 +71,9 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
             if random.random() < 0.1:
                 gl.glEdgeFlag(random.random() < 0.5)
             random.choice((elements, ranges))(random, random.choice(MODES))
-        gl.glFinish()
+        buffers, draws = buffers_and_draws(context)
         validate_frame(context.frame)
-        window = context.storage.window
-        buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
-        return buffers, [command for command in context.frame.commands if isinstance(command, Draw)]
+        return buffers, draws
 
 
 @pytest.mark.parametrize("seeds", [range(start, start + 25) for start in range(0, 150, 25)], ids=str)

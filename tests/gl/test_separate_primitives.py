@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.primitives_in_a_row import buffers_and_draws, set_where_order_matters
 from gl.shape_writer import ShapeWriter
 from softshadow import gl
 from softshadow.gl import immediate
@@ -67,22 +68,12 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
     """Return the buffers that a random program leaves, and its draws."""
     random = Random(seed)
     with gl.create_context(24, 18) as context:
-        gl.glEnable(gl.GL_DEPTH_TEST)
-        gl.glEnable(gl.GL_STENCIL_TEST)
-        gl.glStencilOp(gl.GL_KEEP, gl.GL_INVERT, gl.GL_INCR)
-        gl.glPolygonOffset(1.0, 4.0)
-        gl.glLineStipple(2, 0xA3C5)
-        gl.glPolygonStipple(np.arange(128, dtype=np.uint8).tobytes())
-        gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.5, 0.25, 0.5))
-        gl.glBlendFunc(gl.GL_ONE, gl.GL_ONE)
+        set_where_order_matters()
         for _ in range(4):
             for _ in range(random.randint(0, 3)):
                 change_state(random)
             draw_pairs(random)
-        gl.glFinish()
-        window = context.storage.window
-        buffers = [image.view.tobytes() for image in (window.color, window.depth, window.stencil) if image is not None]
-        return buffers, [command for command in context.frame.commands if isinstance(command, Draw)]
+        return buffers_and_draws(context)
 
 
 @pytest.mark.parametrize("seeds", [range(start, start + 25) for start in range(0, 200, 25)], ids=str)
