@@ -199,13 +199,12 @@ class SimilarPrimitives:
 def _can_be_separate(primitive: ListPrimitive) -> bool:
     """Return whether a primitive may become separate ones.
 
-    Mesa looks whether a quad strip is clipped at all vertices that the indices span, so all of them must be in quads.
-    Separate quads with indices are always cut in one way.
+    Separate quads with indices are always cut in one way, those of a strip as they are only up to the first segment.
     """
     mode, count = primitive.mode, len(primitive.indices)
     if mode in SEPARATE:
         return count % SEPARATE[mode] == 0
-    return mode != gl.GL_QUAD_STRIP or (count % 2 == 0 and count <= INDEXED_SEGMENT)
+    return mode != gl.GL_QUAD_STRIP or count <= INDEXED_SEGMENT
 
 
 def joined_primitive(members: Sequence[ListPrimitive], mode: int, indices: np.ndarray) -> ListPrimitive:

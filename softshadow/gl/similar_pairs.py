@@ -16,7 +16,6 @@ from softshadow.context import Context
 from softshadow.context.arrays import SLOTS
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
-from softshadow.gl.materials import follow_color
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
 from softshadow.pipeline.commands import Draw, Vertices, draws_like
@@ -183,7 +182,6 @@ def first_pairs(
     if not _can_be_similar(context):
         return None
     if buffer.n_vertices:  # of pairs before: since then, calls have only set attributes
-        follow_color(context)
         return similar_pairs(context, sizes)
     if buffer.joined_pairs is not None or "position" in buffer.sizes:
         return None
@@ -198,7 +196,6 @@ def first_pairs(
         if starts[name] > 1 or is_reset:
             return None
     begin_format(context, mode, sizes, late)
-    follow_color(context)
     context.pending.reset_due = context.pending.has_vertices = True
     return SimilarPairs(context, sizes)
 

@@ -115,6 +115,39 @@ def test_strips_of_a_shape_have_the_pixels_of_single_ones(
         assert buffers == joined[seed][0], seed
 
 
+def folded_quads(n_vertices: int) -> bytes:
+    """Return the depths that two quad strips in a list leave, whose last vertices are behind the far plane.
+
+    Both triangles of a quad cover some pixels, at other depths: the one drawn last is seen. Mesa draws them the other
+    way round if a vertex of the strip, or of 1,024 of a longer one, is outside; the last one of an odd number does not
+    count.
+    """
+    positions = np.random.default_rng(n_vertices).uniform(-1.0, 1.0, (n_vertices, 3))
+    positions[-1, 2] = 1.5
+    with gl.create_context(12, 9) as context:
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        gl.glDepthFunc(gl.GL_ALWAYS)
+        gl.glNewList(1, gl.GL_COMPILE)
+        for strip in range(2):
+            gl.glBegin(gl.GL_QUAD_STRIP)
+            for x, y, z in positions.tolist():
+                gl.glVertex3f(0.5 * x + strip - 0.5, y, z)
+            gl.glEnd()
+        gl.glEndList()
+        gl.glCallList(1)
+        gl.glFinish()
+        assert context.storage.window.depth is not None
+        return context.storage.window.depth.view.tobytes()
+
+
+@pytest.mark.parametrize("n_vertices", [5, 6, 13, 14, 1025, 1026, 1027, 1028])
+def test_quads_of_a_list_are_cut_as_those_of_single_strips(n_vertices: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    at_once = folded_quads(n_vertices)
+    assert len(set(at_once)) > 8
+    monkeypatch.setattr(list_primitives, "can_be_joined", lambda _: False)
+    assert folded_quads(n_vertices) == at_once
+
+
 def kernel_triangles(indices: np.ndarray, needs_clipping: np.ndarray, across: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the triangles of joined strips behind two vertices of another draw, and their provoking vertices."""
     numbers = np.zeros((1, NUMBERS), np.int64)

@@ -17,6 +17,7 @@ from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, li
 from softshadow.pipeline.geometry.lines import LINES
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
+MODES = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
 ROUNDS = 60
 
 
@@ -71,7 +72,7 @@ class RandomShapes:
 
     def _part(self, rng: np.random.Generator) -> Callable[[Any], None]:
         numbers = [float(np.float32(x)) for x in rng.uniform(-1, 1, 4)]
-        kind = int(rng.integers(17))
+        kind = int(rng.integers(18))
         if kind == 0:
             color = numbers[:3] if numbers[3] > 0 else (1.0, 0.5, 0.0)  # the same one again
             return lambda draw: gl.glColor3f(*color)
@@ -101,12 +102,20 @@ class RandomShapes:
             return lambda draw: gl.glPolygonMode(face, gl.GL_LINE if numbers[1] > 0 else gl.GL_FILL)
         if kind == 10 and numbers[0] > 0:
             return lambda draw: gl.glBitmap(8, 1, 0, 0, 9, 0, bytes([0x80]))
+        if kind == 11:
+            return partial(self._draw_none, int(rng.choice(MODES)))
         shape = self._shape(rng)
         return lambda draw: draw(shape)
 
+    @staticmethod
+    def _draw_none(mode: int, _: Callable[[Calls], None]) -> None:
+        """Draw a pair without vertices: Mesa draws nothing of the strips of its mode that follow."""
+        gl.glBegin(mode)
+        gl.glEnd()
+
     def _shape(self, rng: np.random.Generator) -> Calls:
         calls, has_normals, has_coordinates = ShapeWriter(), rng.random() < 0.7, rng.random() < 0.4
-        modes = gl.GL_QUAD_STRIP, gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_QUADS
+        modes = MODES
         most = int(rng.choice([5, 8, 40]))  # after a few vertices, Mesa makes the next ones carry a colour set between
         is_run = rng.random() < 0.5  # of strips that are drawn together
         if is_run:
@@ -173,6 +182,34 @@ def test_strips_with_kept_materials_give_the_draws_of_their_calls() -> None:
         draw(long)
 
     assert draws_of(partial(program, Calls.make)) == draws_of(partial(program, call_by_call))
+
+
+def strip_of_each(modes: tuple[int, ...]) -> Calls:
+    calls = ShapeWriter()
+    for strip, mode in enumerate(modes):
+        calls.begin(mode)
+        for vertex in range(6):
+            calls.vertex(0.1 * vertex, 0.2 * (vertex % 2), 0.1 * strip)
+        calls.end()
+    return calls.calls
+
+
+@pytest.mark.parametrize("modes", [(gl.GL_TRIANGLE_FAN, gl.GL_TRIANGLE_STRIP), 2 * (gl.GL_TRIANGLE_STRIP,)])
+def test_strips_behind_a_pair_without_vertices_give_the_draws_of_their_calls(modes: tuple[int, ...]) -> None:
+    """Mesa draws nothing of the fans that follow an empty one, up to the next strip of another mode."""
+    strips, fan = strip_of_each(modes), strip_of_each((gl.GL_TRIANGLE_FAN,))
+
+    def program(draw: Callable[[Calls], None]) -> None:
+        draw(strips)
+        gl.glBegin(gl.GL_TRIANGLE_FAN)
+        gl.glEnd()
+        draw(strips)
+        call_by_call(fan)
+
+    at_once = draws_of(partial(program, Calls.make))
+    assert at_once == draws_of(partial(program, call_by_call))
+    n_vertices = sum(len(rows[0]) // 16 for rows in at_once[3::2])  # of separate triangles: four of each strip
+    assert n_vertices == 12 * (4 if modes[0] == gl.GL_TRIANGLE_FAN else 5)
 
 
 def test_the_stipple_goes_on_where_the_first_line_of_a_strip_is_clipped_away() -> None:
