@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 STEP = 1e-4  # of the difference quotients that give the normals
+CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))  # of a square, in order
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
