@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 from softshadow import tokens as gl
 from softshadow.context.pending_attributes import PendingAttributes
-from softshadow.context.state_groups import Followed, Group, StateGroups, affects_draws
+from softshadow.context.state_groups import UNDRAWN, Followed, Group, StateGroups, affects_draws
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
@@ -92,7 +92,7 @@ class ChangingState:
         changed = self.groups[group]
         fields = changed.fields
         if fields[name] is not value:
-            if not self.ready and self._would_redraw((group,), {name: value}):
+            if not self.ready and name not in UNDRAWN and fields[name] != value and self.has_collected:
                 self.separate()
             if changed.is_lighting and fields[name] != value:
                 self.mark_materials()

@@ -257,11 +257,9 @@ class Context(CurrentValues, Precision):
 
     def _draw_late(self) -> None:
         """Carry out and record the draws that wait for their arrays."""
-        for draws in self.late.take():
-            if len(draws) > 1:
-                self._carry_out_several(draws, self._waiting.add_like)
-            else:
-                self._carry_out(draws[0])
+        lists, memory = self.late.take()
+        for draws in lists:
+            self._carry_out_several(draws, self._waiting.add_like, memory)
 
     def _carry_out(self, command: Command) -> None:
         if self.text is not None:
@@ -289,14 +287,22 @@ class Context(CurrentValues, Precision):
             self._draw_late()
         self._carry_out_several(commands, self._waiting.add_alike)
 
-    def _carry_out_several(self, commands: Sequence[Draw], add: Callable[[Sequence[Draw]], int]) -> None:
-        """Carry out and record draws; `add` lets some of them wait."""
-        n_waiting = 0
+    def _carry_out_several(
+        self,
+        commands: Sequence[Draw],
+        add: Callable[[Sequence[Draw]], int],
+        memory: Sequence[np.ndarray] | None = None,
+    ) -> None:
+        """Carry out and record draws; `add` lets some of them wait. For `memory` see `Frame.extend`."""
+        n_done = 0
         if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
-            n_waiting = add(commands)
-            if self._frame.extend(commands[:n_waiting]):
+            n_done = add(commands)
+            if not n_done:
+                execute(commands[0], self.objects)
+                n_done = 1
+            if self._frame.extend(commands[:n_done], memory):
                 self._frame.shorten(self.storage)
-        for command in commands[n_waiting:]:
+        for command in commands[n_done:]:
             self._carry_out(command)
 
     def carry_out(self, commands: Sequence[Command]) -> None:

@@ -19,6 +19,7 @@ from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
+MOST_LIKES = 1024  # as many as there are states that are found again
 VERTICES, MODELVIEW, KIND = map(Draw._fields.index, ("vertices", "modelview", "modelview_kind"))
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
@@ -73,7 +74,7 @@ class LateDraws:
     Attributes
     ----------
     draws : list             these, in their order
-    likes : dict             what the latest one of each mode was like
+    likes : dict             what the latest one of each mode and state, by its identity, was like
 
     Parameters
     ----------
@@ -83,8 +84,14 @@ class LateDraws:
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
         self.draws: list[LateDraw] = []
-        self.likes: dict[int, Draw] = {}
+        self.likes: dict[tuple[int, int], Draw] = {}
         self._n_numbers = 0
+
+    def keep_like(self, like: Draw) -> None:
+        """Keep what a draw is like, for others under its state."""
+        if len(self.likes) >= MOST_LIKES:
+            self.likes.clear()
+        self.likes[like.mode, id(like.state)] = like
 
     def add(self, draw: LateDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
@@ -92,44 +99,50 @@ class LateDraws:
         self._n_numbers += len(draw.vertices.primitive.positions)
         return self._n_numbers >= MOST_NUMBERS
 
-    def take(self) -> list[list[Draw]]:
-        """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only."""
+    def take(self) -> tuple[list[list[Draw]], list[np.ndarray]]:
+        """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only.
+
+        And the memory of their arrays, which they share.
+        """
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        rows, precision = iter(self._rows(draws)), self._precision
+        fours, threes = self._rows(draws)
+        fours_at = threes_at = 0
+        precision, latest_color, latest_normal = self._precision, LatestRows(), LatestRows()
         lists: list[list[Draw]] = []
         like = None
-        latest_color, latest_normal = LatestRows(), LatestRows()
         for draw in draws:
             if draw.like is not like:
                 like = draw.like
                 lists.append([])
-            positions = next(rows)
-            count = len(positions)
+            count = len(draw.vertices.primitive.positions) // 4
+            positions, fours_at = fours[fours_at : fours_at + count], fours_at + count
             color, normal, texcoords = None, None, draw.texcoords.rows(count)
             for name in draw.columns:
+                if name == "normal":
+                    normal, threes_at = threes[threes_at : threes_at + count], threes_at + count
+                    continue
+                column, fours_at = fours[fours_at : fours_at + count], fours_at + count
                 if name == "color":
-                    color = next(rows)
-                elif name == "normal":
-                    normal = next(rows)
+                    color = column
                 else:
                     unit = SLOTS[name] - TEXCOORD
-                    texcoords = (*texcoords[:unit], next(rows), *texcoords[unit + 1 :])
+                    texcoords = (*texcoords[:unit], column, *texcoords[unit + 1 :])
             if color is None:
                 color = latest_color.of(precision, draw.color, count)
             if normal is None:
                 normal = latest_normal.of(precision, draw.normal, count)
             lists[-1].append(draw.made(Vertices(positions, color, normal, texcoords)))
-        return lists
+        return lists, [memory for rows in (fours, threes) if (memory := rows.base) is not None and memory.size]
 
-    def _rows(self, draws: Sequence[LateDraw]) -> list[np.ndarray]:
-        """Return the positions of each draw, and behind them what its vertices carry, in the order of `columns`."""
-        numbers: list[Sequence[float]] = []
-        widths: list[int] = []
+    def _rows(self, draws: Sequence[LateDraw]) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rows of four numbers, and those of three.
+
+        They are the positions of each draw, and behind them what its vertices carry, in the order of `columns`.
+        """
+        fours, threes = self._precision.numbers(), self._precision.numbers()
         for draw in draws:
             primitive = draw.vertices.primitive
-            numbers.append(primitive.positions)
-            widths.append(4)
+            fours.extend(primitive.positions)
             for name in draw.columns:
-                numbers.append(primitive.components(name, ()))
-                widths.append(3 if name == "normal" else 4)
-        return self._precision.packed_parts(numbers, widths)
+                (threes if name == "normal" else fours).extend(primitive.components(name, ()))
+        return self._precision.rows(fours, 4), self._precision.rows(threes, 3)

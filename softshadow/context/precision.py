@@ -47,17 +47,13 @@ class Precision:
         dtype, width = self._dtype, len(row)
         return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
 
-    def packed_parts(self, parts: Sequence[Sequence[float]], widths: Sequence[int]) -> list[np.ndarray]:
-        """Return what `packed` returns of each part as rows of so many numbers; the arrays share their memory."""
-        dtype, arrays, start = self._dtype, [], 0
-        joined: array[float] = array(dtype.char)
-        for part in parts:
-            joined.extend(part)
-        data, size = joined.tobytes(), dtype.itemsize
-        for part, width in zip(parts, widths, strict=True):
-            arrays.append(np.ndarray((len(part) // width, width), dtype, data, start))
-            start += len(part) * size
-        return arrays
+    def numbers(self) -> array[float]:
+        """Return numbers in the context's precision, none as yet, for `rows`."""
+        return array(self._dtype.char)
+
+    def rows(self, numbers: array[float], width: int) -> np.ndarray:
+        """Return numbers as a read-only array of rows of so many."""
+        return np.frombuffer(numbers.tobytes(), self._dtype).reshape(-1, width)
 
     def constant(self, row: Sequence[float], count: int) -> np.ndarray:
         """Return a read-only view of `count` equal rows."""

@@ -55,6 +55,16 @@ class Contents:
                 if array is not None:
                     self._add_array(array)
 
+    def add_draws(self, draws: Sequence[Draw], memory: Sequence[np.ndarray]) -> None:
+        """Count draws whose arrays, but for the indices, are parts of a memory."""
+        self.commands += len(draws)
+        self.new_bytes += COMMAND_BYTES * len(draws)
+        for array in memory:
+            self._add_memory(array)
+        for draw in draws:
+            if draw.indices is not None and id(draw.indices) not in self._sizes:
+                self._add_array(draw.indices)
+
     def _add_vertices(self, vertices: Vertices) -> None:
         sizes, texcoords = self._sizes, vertices.texcoords
         sizes[id(vertices)] = 0
@@ -80,8 +90,11 @@ class Contents:
         while isinstance(base, np.ndarray):
             sizes[id(array)] = 0
             array, base = base, base.base
-        if id(array) not in sizes:
-            size = sizes[id(array)] = array.nbytes
+        self._add_memory(array)
+
+    def _add_memory(self, array: np.ndarray) -> None:
+        if id(array) not in self._sizes:
+            size = self._sizes[id(array)] = array.nbytes
             if id(array) not in self._before:
                 self.new_bytes += size
 
@@ -130,14 +143,23 @@ class Frame:
         self.commands.append(command)
         return self.history_bytes is not None and self._note(command)
 
-    def extend(self, commands: Sequence[Command]) -> bool:
-        """Record several commands; return what `append` returns."""
+    def extend(self, commands: Sequence[Any], memory: Sequence[np.ndarray] | None = None) -> bool:
+        """Record several commands; return what `append` returns.
+
+        If they are draws whose arrays, but for the indices, are parts of `memory`, they are not counted one by one.
+        """
         self.commands += commands
-        is_long = False
-        if self.history_bytes is not None:
+        if self.history_bytes is None:
+            return False
+        if memory is None:
+            is_long = False
             for command in commands:
                 is_long = self._note(command)
-        return is_long
+            return is_long
+        before = self._newer.new_bytes
+        self._newer.add_draws(commands, memory)
+        self._most_bytes += self._newer.new_bytes - before
+        return self._is_long()
 
     def _note(self, command: Command) -> bool:
         """Count the bytes of a command; return whether there are too many."""
@@ -152,6 +174,11 @@ class Frame:
             before = self._newer.new_bytes
             self._newer.add(command)
             self._most_bytes += self._newer.new_bytes - before
+        return self._is_long()
+
+    def _is_long(self) -> bool:
+        """Return whether the commands since the mark take half of the bytes of the recording."""
+        assert self.history_bytes is not None
         if self._most_bytes * 2 <= self.history_bytes:
             return False
         self._count()

@@ -194,7 +194,11 @@ class StateGroups:
         A draw takes this colour from its vertices. So draws that differ in it alone have the same state.
         """
         changed, root = self.changed, self.root
-        if changed:
+        if len(changed) == 1:
+            group: Group | None = changed.pop()
+            while group is not None and group.publish():
+                group = group.parent
+        elif changed:
             parents = set()
             for group in changed:
                 if group.parent is not root and group.parent is not None:

@@ -90,15 +90,13 @@ def _like(context: Context, mode: int) -> Draw | None:
     state = context.drawn_state
     if context.labels or context.origin is not None or context.gate is not None or not context.has_followed(state):
         return None
-    likes, projection, matrices = context.late.likes, context.projection_stack.current, context.texture_matrices()
-    like = likes.get(mode)
-    if (
-        like is None or like.state is not state or like.projection is not projection
-        or like.texture_matrices is not matrices
-    ):  # fmt: skip
+    late, projection, matrices = context.late, context.projection_stack.current, context.texture_matrices()
+    like = late.likes.get((mode, id(state)))  # which keeps its state
+    if like is None or like.projection is not projection or like.texture_matrices is not matrices:
         if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
             return None
-        like = likes[mode] = context.draw_command(mode, NO_VERTICES)
+        like = context.draw_command(mode, NO_VERTICES)
+        late.keep_like(like)
     return like
 
 

@@ -149,7 +149,7 @@ class DrawQueue:
         """
         if not self.add(commands[0]):
             return 0
-        if self._kind is None:
+        if len(commands) == 1 or self._kind is None:
             return 1
         continues, first = self._kind.run.continues, commands[0]
         others = list(takewhile(lambda command: continues(command, first), commands[1:]))
