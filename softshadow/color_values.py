@@ -13,9 +13,19 @@ from softshadow.texel_codes import clamped
 F32 = np.float32
 ZERO, ONE, LARGEST_BYTE = F32(0), F32(1), F32(255)
 GREEN, BLUE, UPPERMOST = np.uint32(8), np.uint32(16), np.uint32(24)  # bits below the byte of a channel
-OPAQUE = np.uint32(255 << 24)
+OPAQUE, TRANSPARENT = np.uint32(255 << 24), np.uint32(0)
 LARGE = 1 << 18  # bytes of an image from which calling a kernel pays
 CHANNEL = {"R": 0, "G": 1, "B": 2, "A": 3}
+SOURCES = {  # of the channels in a base internal format (GL 2.1, table 3.15)
+    gl.GL_RGBA: "RGBA",
+    gl.GL_RGB: "RGB1",
+    gl.GL_RG: "RG01",
+    gl.GL_RED: "R001",
+    gl.GL_ALPHA: "000A",
+    gl.GL_LUMINANCE: "RRR1",
+    gl.GL_LUMINANCE_ALPHA: "RRRA",
+    gl.GL_INTENSITY: "RRRR",
+}
 
 
 def largest_of(dtype: type[np.generic]) -> int:
@@ -25,19 +35,8 @@ def largest_of(dtype: type[np.generic]) -> int:
 
 
 def to_base(rgba: np.ndarray, base: int) -> np.ndarray:
-    """Return RGBA (..., 4) as sampling reads it in a base internal format (GL 2.1, table 3.15)."""
-    one = 255 if rgba.dtype == np.uint8 else 1
-    sources = {
-        gl.GL_RGBA: "RGBA",
-        gl.GL_RGB: "RGB1",
-        gl.GL_RG: "RG01",
-        gl.GL_RED: "R001",
-        gl.GL_ALPHA: "000A",
-        gl.GL_LUMINANCE: "RRR1",
-        gl.GL_LUMINANCE_ALPHA: "RRRA",
-        gl.GL_INTENSITY: "RRRR",
-    }[base]
-    return swizzled(rgba, sources, one)
+    """Return RGBA (..., 4) as sampling reads it in a base internal format."""
+    return swizzled(rgba, SOURCES[base], 255 if rgba.dtype == np.uint8 else 1)
 
 
 def swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
@@ -62,18 +61,24 @@ def copy_rgb(rgba: np.ndarray, rgb: np.ndarray) -> None:
             rgb[j, i, 0], rgb[j, i, 1], rgb[j, i, 2] = rgba[j, i, 0], rgba[j, i, 1], rgba[j, i, 2]
 
 
-def as_rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
-    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4): the same array if they are RGBA."""
-    names = COMPONENTS[pixel_format]
-    if names == "RGBA":
+def as_rgba(values: np.ndarray, pixel_format: int, one: int, base: int = gl.GL_RGBA) -> np.ndarray:
+    """Return the components of client pixels (h, w, n) as RGBA (h, w, 4): the same array if nothing changes.
+
+    With `base`, as sampling reads them in this base internal format.
+    """
+    names, sources = COMPONENTS[pixel_format], SOURCES[base]
+    if names == sources:
         return values
-    places = [names.find("L" if "L" in names and channel != "A" else channel) for channel in CHANNEL]
+    known = {channel: names.find("L" if "L" in names and channel != "A" else channel) for channel in CHANNEL}
+    known |= {"0": -1, "1": -1}
+    places = [known[source] for source in sources]
+    is_opaque = sources[3] == "1" or (sources[3] == "A" and known["A"] < 0)
     if values.dtype == np.uint8 and values.flags.c_contiguous and 4 * values.size >= LARGE * len(names):
-        rgba = np.empty((*values.shape[:2], 4), np.uint8)
-        write_rgba(read_only(values.reshape(-1)), len(names), *places, rgba.reshape(-1).view(np.uint32))
+        rgba, rest = np.empty((*values.shape[:2], 4), np.uint8), OPAQUE if is_opaque else TRANSPARENT
+        write_rgba(read_only(values.reshape(-1)), len(names), *places, rest, rgba.reshape(-1).view(np.uint32))
         return rgba
     rgba = np.zeros((*values.shape[:2], 4), values.dtype)
-    rgba[..., 3] = one
+    rgba[..., 3] = one if is_opaque else 0
     for channel, place in enumerate(places):
         if place >= 0:
             rgba[..., channel] = values[..., place]
@@ -81,14 +86,22 @@ def as_rgba(values: np.ndarray, pixel_format: int, one: int) -> np.ndarray:
 
 
 @kernel
-def write_rgba(values: np.ndarray, step: int, red: int, green: int, blue: int, alpha: int, pixels: np.ndarray) -> None:
+def write_rgba(
+    values: np.ndarray,
+    step: int,
+    red: int,
+    green: int,
+    blue: int,
+    alpha: int,
+    rest: np.uint32,
+    pixels: np.ndarray,
+) -> None:
     """Write bytes (step * n,) as RGBA pixels (n,) of 32 bits.
 
-    The other numbers are the places of the channels in a pixel. One that is negative has none: then colours are 0 and
-    alpha is 255.
+    The colours are the places of the channels in a pixel, negative for those that it has not: they are as in `rest`.
     """
     for i in range(pixels.shape[0]):
-        first, pixel = i * step, OPAQUE
+        first, pixel = i * step, rest
         if alpha >= 0:
             pixel = np.uint32(values[np.uint64(first + alpha)]) << UPPERMOST
         if red >= 0:

@@ -63,7 +63,7 @@ def encoded(pixels: np.ndarray, pixel_format: int, format: Format, type: int) ->
     is_packed = packed is not None and not is_bytes
     if format.has_few_bits and not (is_direct and pixels.dtype == F32):
         values = packed_to_unorm8(pixels, packed) if packed is not None and is_packed else to_unorm8(pixels)
-        return encoded_bytes(to_base(as_rgba(values, pixel_format, 255), format.base), format)
+        return encoded_bytes(as_rgba(values, pixel_format, 255, format.base), format)
     if format.encoding == "unorm" and not is_packed and pixels.dtype.kind in "ui":
         n_bits = pixels.dtype.itemsize * 8 - (pixels.dtype.kind == "i")
         if format.is_array or is_direct:

@@ -245,12 +245,12 @@ def storage_format(internal_format: int, type: int = gl.GL_FLOAT, pixel_format: 
     return FORMATS[sized]
 
 
-def zeroed_cells(height: int, width: int, format: Format) -> np.ndarray:
-    """Return zeroed cells: `height` rows, each padded to a multiple of `PITCH` pixels, but not of `CROWDED`."""
+def new_cells(height: int, width: int, format: Format, *, is_zeroed: bool = True) -> np.ndarray:
+    """Return cells: `height` rows, each padded to a multiple of `PITCH` pixels, but not of `CROWDED`."""
     pitch = -(-width // PITCH) * PITCH
     pitch += 0 if pitch % CROWDED else PITCH
     shape: tuple[int, ...] = (height, pitch) if format.channels == 1 else (height, pitch, format.channels)
-    return np.zeros(shape, format.dtype)
+    return np.zeros(shape, format.dtype) if is_zeroed else np.empty(shape, format.dtype)
 
 
 def _has_stencil(format: Format, internal_format: int) -> bool:
@@ -315,13 +315,28 @@ class Image:
         self.version, self.tile_bounds = version, None
 
     @classmethod
-    def new(cls, format: Format, width: int, height: int, internal_format: int = 0, slices: int = 1) -> Image:
-        """Return an image of zeros, with a stencil image if the internal format has one."""
+    def new(
+        cls,
+        format: Format,
+        width: int,
+        height: int,
+        internal_format: int = 0,
+        slices: int = 1,
+        pixels: np.ndarray | None = None,
+    ) -> Image:
+        """Return an image of pixels (slices * height, width[, channels]) or zeros, and one of stencil values with it.
+
+        That is of zeros, and only there if the internal format has one.
+        """
         width, height, slices = int(width), int(height), int(slices)  # they may be NumPy integers
         stencil = cls.new(STENCIL8, width, height, internal_format) if _has_stencil(format, internal_format) else None
-        cells = zeroed_cells(height * slices, width, format)
+        cells = new_cells(height * slices, width, format, is_zeroed=pixels is None)
+        padding = cells
+        if pixels is not None:
+            cells[:, :width], padding = pixels, cells[:, width:]
+            padding[:] = 0
         if format.base in (gl.GL_RED, gl.GL_RG, gl.GL_RGB, gl.GL_LUMINANCE):
-            cells[..., 3] = format.largest or 1  # formats without alpha are read with alpha 1
+            padding[..., 3] = format.largest or 1  # formats without alpha are read with alpha 1
         return cls(format, width, height, cells, internal_format, stencil, slices=slices)
 
     @property

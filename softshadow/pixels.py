@@ -228,7 +228,7 @@ def unpack_color(
         values, one = packed_to_unorm8(pixels, packed) if packed else to_unorm8(pixels), 255
     else:
         values, one = packed_to_float(pixels, packed) if packed else to_float(pixels), 1
-    return to_base(as_rgba(values, pixel_format, one), format.base)
+    return as_rgba(values, pixel_format, one, format.base)
 
 
 def to_cells(rgba: np.ndarray, format: Format) -> np.ndarray:

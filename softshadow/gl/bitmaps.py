@@ -58,6 +58,7 @@ class PixelQuads:
         self.is_small = 0 < 4 * len(quads) <= KEPT_VERTICES
         if self.is_small:
             self.x, self.y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
+        if len(quads):
             self._bounds = *quads[:, :2].min(axis=0).tolist(), *quads[:, 2:].max(axis=0).tolist()
         self._placed: dict[tuple[Any, ...], Vertices] = {}  # the latest, by place and size of the framebuffer
 
@@ -87,6 +88,11 @@ class PixelQuads:
         x0, y0, x1, y1 = self._bounds
         is_after_start = left + x0 >= -MARGIN and bottom + y0 >= -MARGIN
         return is_after_start and left + x1 <= size[0] + MARGIN and bottom + y1 <= size[1] + MARGIN
+
+    def is_outside(self, left: int, bottom: int, size: tuple[int, int]) -> bool:
+        """Return whether all quads, of which there is one at least, are outside of a framebuffer."""
+        x0, y0, x1, y1 = self._bounds
+        return left + x1 <= 0 or bottom + y1 <= 0 or left + x0 >= size[0] or bottom + y0 >= size[1]
 
 
 class Text:
@@ -195,7 +201,11 @@ def _bitmap(
 
 
 def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
-    """Draw a bitmap, a small one together with those that follow."""
+    """Draw a bitmap, a small one together with those that follow; one outside of the window has no fragments."""
+    if pixels.is_outside(
+        left, bottom, context.objects.framebuffers[context.groups[""].fields["draw_framebuffer"]].size
+    ):
+        return
     text = context.text
     has_vertices = context.vertex_buffer.n_vertices or context.vertex_buffer.joined_pairs is not None
     if isinstance(text, Text) and not has_vertices and text.add(context, pixels, left, bottom):

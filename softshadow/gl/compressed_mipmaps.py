@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.color_values import as_rgba, to_base
+from softshadow.color_values import as_rgba
 from softshadow.compression import COMPRESSED, decoded, encoded
 from softshadow.context import Context
 from softshadow.gl.compressed_reading import compressed_pixels
@@ -24,7 +24,7 @@ def generate_compressed(context: Context, texture: Texture, face: int, base: int
     for level in range(base + 1, last + 1):
         pixels = halved(pixels)
         height, width = pixels.shape[:2]
-        blocks = encoded(to_base(as_rgba(pixels, stored.base, 255), stored.base), compressed)
+        blocks = encoded(as_rgba(pixels, stored.base, 255, stored.base), compressed)
         cells = decoded(blocks, compressed, width, height)
         layout = stored, image.internal_format, width, height
         context.execute(DefineImage(texture.name, face, level, *layout, cells, blocks=blocks))

@@ -15,7 +15,7 @@ import numpy as np
 
 from softshadow.context import Frame
 from softshadow.framebuffer import DEPTH_FORMATS, LARGEST_SIDE, NOTHING
-from softshadow.image import EXACT_DEPTH, FORMATS, STENCIL8, Image, zeroed_cells
+from softshadow.image import EXACT_DEPTH, FORMATS, STENCIL8, Image, new_cells
 from softshadow.inspection.replay import Buffers
 from softshadow.pipeline import commands
 from softshadow.pipeline.geometry.separate import is_separated
@@ -145,7 +145,7 @@ def validate_map(frame: Frame, name: str, values: np.ndarray) -> None:
 def validate_image(image: Image) -> None:
     """Raise a ValueError unless the cells of an image are those of its format and size."""
     _validate_size(image)
-    expected = zeroed_cells(0, image.width, image.format)
+    expected = new_cells(0, image.width, image.format)
     _validate_array("cells", image._cells, expected.dtype, image.height * image.slices, *expected.shape[1:])
     if image.stencil is not None:
         sides = (image.width, image.height, image.slices)

@@ -165,9 +165,17 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
 def may_wait(command: Draw) -> bool:
     """Return whether a draw may wait: short cuts are on, and nobody asks how draws went.
 
-    Rectangles that are copied do not wait: what follows is most often another one, which needs their texture.
+    Rectangles whose texels are copied do not wait: it takes less time than a batch, and most often another one follows,
+    which needs their texture.
     """
-    return short_cuts.get() is True and not is_explained() and command.shown_at is None
+    return short_cuts.get() is True and not is_explained() and not _may_be_copied(command)
+
+
+def _may_be_copied(command: Draw) -> bool:
+    """Return whether the texels of a rectangle may be copied: no test or blending is in the way (`is_shown`)."""
+    state = command.state
+    is_tested = state.depth.enabled or state.stencil.enabled or needs_order(state)
+    return command.shown_at is not None and not is_tested
 
 
 def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | None:

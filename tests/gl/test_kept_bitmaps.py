@@ -142,18 +142,52 @@ def drawn_text(seed: int) -> tuple[list[Draw], list[bytes]]:
         return draws, [window.color.view.tobytes(), window.depth.view.tobytes()]
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_characters_that_are_drawn_together_leave_the_bits_of_single_draws(seed, monkeypatch):
-    draws, buffers = drawn_text(seed)
+@pytest.mark.parametrize("seeds", [range(start, start + 4) for start in range(0, 40, 4)], ids=str)
+def test_characters_that_are_drawn_together_leave_the_bits_of_single_draws(seeds, monkeypatch):
+    together = {seed: drawn_text(seed) for seed in seeds}
     monkeypatch.setattr(bitmaps.Text, "add", lambda *_: False)
-    singles, expected = drawn_text(seed)
-    assert buffers == expected
-    assert len(draws) < len(singles)
-    of_label = [
-        {label: sum(len(each.vertices.position) for each in some if each.label == label) for label in LABELS}
-        for some in (draws, singles)
-    ]
-    assert of_label[0] == of_label[1]
+    n_draws = n_singles = 0
+    for seed, (draws, buffers) in together.items():
+        singles, expected = drawn_text(seed)
+        assert buffers == expected, seed
+        n_draws, n_singles = n_draws + len(draws), n_singles + len(singles)
+        of_label = [
+            {label: sum(len(each.vertices.position) for each in some if each.label == label) for label in LABELS}
+            for some in (draws, singles)
+        ]
+        assert of_label[0] == of_label[1], seed
+    assert n_draws < n_singles  # in each seed but one, in which all characters are outside of the window
+
+
+@pytest.mark.parametrize("in_window", [True, False])
+@pytest.mark.parametrize(
+    ("place", "is_seen"),
+    [
+        ((-3, 0), True), ((-4, 0), False), ((6, 0), True), ((7, 0), False),
+        ((0, -2), True), ((0, -3), False), ((0, 4), True), ((0, 5), False), ((-4, -3), False),
+    ],
+)  # fmt: skip
+def test_a_bitmap_outside_of_the_framebuffer_is_not_drawn(place, is_seen, in_window):
+    """One of 3 x 2 set bits, behind an unset column and row: it moves the raster position all the same."""
+    with gl.create_context(8, 6) as context:
+        if not in_window:
+            gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+            gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, gl.glGenRenderbuffers(1))
+            gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_RGBA8, 8, 6)
+            gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_RENDERBUFFER, 1)
+        gl.glRasterPos2f(-1, -1)
+        gl.glBitmap(0, 0, 0, 0, *place, None)
+        gl.glBitmap(4, 3, 0, 0, 5, 2, bytes([0, 0, 0, 0, 112, 0, 0, 0, 112, 0, 0, 0]))
+        pixels = gl.glReadPixels(0, 0, 8, 6, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
+        position = gl.glGetFloatv(gl.GL_CURRENT_RASTER_POSITION)
+        draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+    assert position[:2].tolist() == [place[0] + 5, place[1] + 2]
+    assert len(draws) == is_seen
+    rows, columns = (range(max(side + 1, 0), min(side + 1 + size, most)) for side, size, most in
+                     ((place[1], 2, 6), (place[0], 3, 8)))  # fmt: skip
+    expected = np.zeros((6, 8, 3), np.uint8)
+    expected[np.ix_(rows, columns)] = 255
+    np.testing.assert_array_equal(pixels, expected)
 
 
 LABELS = ("first", "first/text", "first/other text", "other text")

@@ -30,9 +30,8 @@ def create_texture(command: CreateTexture, storage: Storage) -> None:
 
 def define_image(command: DefineImage, storage: Storage) -> None:
     """Give a level of a texture a new image, also in the framebuffers that it is attached to."""
-    image = Image.new(command.format, command.width, command.height, command.internal_format, command.slices)
-    if command.cells is not None:
-        image.view[:] = command.cells
+    layout = command.format, command.width, command.height, command.internal_format, command.slices
+    image = Image.new(*layout, command.cells)
     if command.stencil is not None and image.stencil is not None:
         image.stencil.view[:] = command.stencil
     image.blocks = None if command.blocks is None else command.blocks.copy()
