@@ -102,14 +102,18 @@ class Text:
     ----------
     context : Context
     pixels, left, bottom         the first one, and its place
+
+    Attributes
+    ----------
+    size : (width, height) of the framebuffer, in pixels
     """
 
     def __init__(self, context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
         self._first, self._real = draw_of_pixels(context, pixels, left, bottom), cast(Any, context.real)
         self._raster, self._labels = context.current.raster, context.labels.copy()
-        self._size = context.objects.framebuffers[self._first.state.draw_framebuffer].size
+        self.size = context.objects.framebuffers[self._first.state.draw_framebuffer].size
         self._parts, self._n_vertices = [(pixels, left, bottom)], 4 * len(pixels.quads)
-        self._are_near = pixels.is_near(left, bottom, self._size)
+        self._are_near = pixels.is_near(left, bottom, self.size)
 
     def add(self, context: Context, pixels: PixelQuads, left: int, bottom: int) -> bool:
         """Add a bitmap; return False, and do nothing, if it must be a draw of its own."""
@@ -117,7 +121,7 @@ class Text:
         is_alike = raster.color is first.color and raster.texcoords is first.texcoords
         if not is_alike or raster.window[2] != first.window[2] or context.labels != self._labels:
             return False
-        if n_vertices > KEPT_VERTICES or not (self._are_near and pixels.is_near(left, bottom, self._size)):
+        if n_vertices > KEPT_VERTICES or not (self._are_near and pixels.is_near(left, bottom, self.size)):
             return False
         self._parts.append((pixels, left, bottom))
         self._n_vertices = n_vertices
@@ -131,7 +135,7 @@ class Text:
         counts = [4 * len(each.quads) for each in pixels]
         x = np.concatenate([each.x for each in pixels]) + np.repeat(lefts, counts)
         y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
-        position = _near_positions(x, y, self._size, self._real)
+        position = _near_positions(x, y, self.size, self._real)
         vertices = raster_vertices(position, *attributes_of(self._raster, len(position), self._real))
         return self._first._replace(vertices=vertices, indices=indices_of(len(position)))
 
@@ -202,19 +206,22 @@ def _bitmap(
 
 def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
     """Draw a bitmap, a small one together with those that follow; one outside of the window has no fragments."""
-    if pixels.is_outside(
-        left, bottom, context.objects.framebuffers[context.groups[""].fields["draw_framebuffer"]].size
-    ):
+    text = context.text if isinstance(context.text, Text) else None
+    if pixels.is_outside(left, bottom, text.size if text is not None else _size_of_target(context)):
         return
-    text = context.text
     has_vertices = context.vertex_buffer.n_vertices or context.vertex_buffer.joined_pairs is not None
-    if isinstance(text, Text) and not has_vertices and text.add(context, pixels, left, bottom):
+    if text is not None and not has_vertices and text.add(context, pixels, left, bottom):
         return
     context.flush()
     if pixels.is_small and context.gate is None:
         context.text, context.ready = Text(context, pixels, left, bottom), False
     else:
         context.execute(draw_of_pixels(context, pixels, left, bottom))
+
+
+def _size_of_target(context: Context) -> tuple[int, int]:
+    """Return the size of the framebuffer that is drawn to."""
+    return context.objects.framebuffers[context.groups[""].fields["draw_framebuffer"]].size
 
 
 def runs(bits: np.ndarray) -> np.ndarray:
