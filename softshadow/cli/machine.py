@@ -19,6 +19,7 @@ EXTRAS = {
     "trace": "cramjam", "sweep": "distributed", "video": "av",
 }  # fmt: skip
 WARM_SIZE = (64, 48)
+LARGE_IMAGE = 256  # pixels of a side
 PROGRAM_SIZE = (160, 120)  # enough for bounds of depths over tiles
 FEWER = {"samples": 9, "map_size": 64}  # still eight maps at once, and one alone
 
@@ -37,6 +38,7 @@ def warmup(as_json: bool) -> None:
         warnings.simplefilter("ignore", SoftShadowWarning)  # the images are not used
         _draw_techniques()
         _draw_programs()
+        _move_images()
     seconds = time.perf_counter() - start
     if as_json:
         print_json("warmup", seconds=seconds, cache_folder=cache_folder())
@@ -77,6 +79,22 @@ def _draw_programs() -> None:
             for number in range(2):
                 frame(number)
                 gl.glFinish()
+
+
+def _move_images() -> None:
+    """Make a texture of an image, and read the window: kernels convert the pixels of large ones."""
+    import numpy as np
+
+    from softshadow import gl
+
+    side = LARGE_IMAGE
+    say("compiling what large images are converted with ...")
+    with gl.create_context(side, side):
+        gl.glTexImage2D(
+            gl.GL_TEXTURE_2D, 0, gl.GL_RGB, side, side, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE,
+            np.zeros((side, side, 3), np.uint8),
+        )  # fmt: skip
+        gl.glReadPixels(0, 0, side, side, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
 
 
 @contextmanager

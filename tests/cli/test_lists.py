@@ -9,7 +9,7 @@ import pytest
 
 from cli.invocation import invoke_ok, json_of
 from paths import ROOT
-from softshadow import gl, techniques
+from softshadow import color_values, gl, techniques
 from softshadow.bench.corpus.program import DrawNumberedFrame, Program
 from softshadow.bench.corpus.programs import PROGRAMS
 from softshadow.cli import machine
@@ -112,3 +112,14 @@ def test_warmup_finishes_frames_of_every_program_under_the_usual_short_cuts(
     assert drawn == [(name, number) for name in PROGRAMS for number in range(2)]
     assert current() is before
     assert len(runs) >= len(drawn) / 2  # a few programs draw nothing that can wait
+
+
+def test_warmup_moves_images_that_kernels_convert(monkeypatch: pytest.MonkeyPatch) -> None:
+    converted: list[str] = []
+    for name in ("write_rgba", "copy_rgb"):
+        kernel = getattr(color_values, name)
+        monkeypatch.setattr(color_values, name, lambda *args, name=name, to=kernel: (converted.append(name), to(*args)))
+    monkeypatch.setattr("softshadow.runs.run", lambda *_, **__: None)
+    monkeypatch.setattr("softshadow.bench.corpus.programs.PROGRAMS", {})
+    json_of("warmup")
+    assert converted == ["write_rgba", "copy_rgb"]
