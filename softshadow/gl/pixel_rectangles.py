@@ -32,7 +32,7 @@ from softshadow.pixels import pack_color, unpack_color
 from softshadow.texel_codes import as_floats, resized
 from softshadow.tokens import token_name
 
-LARGEST_SHORT = 2**15 - 1
+LARGEST_SHORT, LARGEST_USHORT, LARGEST_INT, LARGEST_UINT = (2**bits - 1 for bits in (15, 16, 31, 32))
 IN_BYTES = [  # the packed types whose colours Mesa's texture has in 8 bits
     kind for kind, packed in PACKED_COLORS.items() if any(n_bits in (5, 6) for _, n_bits in packed.fields)
 ]
@@ -117,7 +117,9 @@ def _colors(context: Context, image: np.ndarray, format: int, type: int) -> np.n
         colors = to_unorm8(transfer.indexed_color(image[..., 0].astype(np.int64)))
         n_bits = INDEXED.get(type, 8)
         return as_floats(resized(colors, 8, n_bits), n_bits)
-    if image.dtype == np.int32:  # Mesa's texture has the upper 16 bits of it
+    if type == gl.GL_UNSIGNED_INT:  # Mesa's texture has 16 bits, the nearest
+        image = ((image.astype(np.uint64) * LARGEST_USHORT + LARGEST_INT) // LARGEST_UINT).astype(np.uint16)
+    elif image.dtype == np.int32:  # or the upper ones of signed numbers
         image = (image >> 16).astype(np.float32) * (np.float32(1) / np.float32(LARGEST_SHORT))
     if transfer.changes_color:
         image = to_float(image) if image.dtype == np.int8 else image  # whose signs Mesa's texture keeps

@@ -52,6 +52,24 @@ def test_every_format_and_type(pixel_format, kind):
     check(program, (20, 16))
 
 
+@pytest.mark.parametrize("bias", [0.0, -0.1466, 0.3])
+@pytest.mark.parametrize("kind", ["GL_UNSIGNED_INT", "GL_INT", "GL_UNSIGNED_SHORT", "GL_SHORT", "GL_FLOAT"])
+def test_colors_between_two_bytes_are_rounded_as_those_of_mesa(kind, bias):
+    """Mesa's texture has other numbers than the client: they may be rounded to another byte."""
+    dtype, places = PIXEL_TYPES[kind], np.linspace(-1.0, 1.0, 9)[:, np.newaxis]
+    near = (np.arange(255) + 0.5) / 255 - np.float32(bias) + places / 65535 / 2
+    colors = near if kind == "GL_FLOAT" else np.clip(near, 0, 1) * np.iinfo(dtype).max
+    pixels = np.repeat(colors[..., np.newaxis], 3, axis=2).astype(dtype)
+
+    def program(gl):
+        gl.glPixelStorei(gl.GL_UNPACK_ALIGNMENT, 1)
+        gl.glPixelTransferf(gl.GL_GREEN_BIAS, bias)
+        gl.glWindowPos2i(0, 0)
+        gl.glDrawPixels(255, 9, gl.GL_RGB, getattr(gl, kind), pixels)
+
+    check(program, (256, 10))
+
+
 @pytest.mark.parametrize("zoom", [(1, 1), (2, 3), (-1, 1), (1, -2), (0.5, 0.5), (1.7, -2.3), (-0.3, 4.1)])
 @pytest.mark.parametrize("seed", range(3))
 def test_zoomed_rectangles(zoom, seed):
