@@ -143,21 +143,21 @@ class Frame:
         self.commands.append(command)
         return self.history_bytes is not None and self._note(command)
 
-    def extend(self, commands: Sequence[Any], memory: Sequence[np.ndarray] | None = None) -> bool:
-        """Record several commands; return what `append` returns.
+    def extend(self, draws: Sequence[Draw], memory: Sequence[np.ndarray] | None = None) -> bool:
+        """Record several draws; return what `append` returns.
 
-        If they are draws whose arrays, but for the indices, are parts of `memory`, they are not counted one by one.
+        If their arrays, but for the indices, are parts of `memory`, they are not counted one by one.
         """
-        self.commands += commands
+        self.commands += draws
         if self.history_bytes is None:
             return False
         if memory is None:
             is_long = False
-            for command in commands:
-                is_long = self._note(command)
+            for draw in draws:
+                is_long = self._note(draw)
             return is_long
         before = self._newer.new_bytes
-        self._newer.add_draws(commands, memory)
+        self._newer.add_draws(draws, memory)
         self._most_bytes += self._newer.new_bytes - before
         return self._is_long()
 
