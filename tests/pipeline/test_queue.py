@@ -51,6 +51,22 @@ def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch
     assert segments == [2, 2] * 4  # two triangles; two of a line
 
 
+@pytest.mark.parametrize(
+    "switch", [None, gl.GL_DEPTH_TEST, gl.GL_STENCIL_TEST, gl.GL_BLEND, gl.GL_ALPHA_TEST, gl.GL_COLOR_LOGIC_OP]
+)
+def test_rectangles_wait_unless_their_texels_are_copied(batches, switch):
+    gl.create_context(SIZE, SIZE)
+    if switch:
+        gl.glEnable(switch)
+    gl.glAlphaFunc(gl.GL_GREATER, 0.5)
+    gl.glLogicOp(gl.GL_XOR)
+    gl.glDrawPixels(1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, bytes(3))
+    assert not batches
+    draw_triangle()
+    gl.glFinish()
+    assert batches == ([1, 1] if switch else [1])
+
+
 def draw_three_triangles(height, shift=0.0):
     """Draw three triangles, of which the last one has a height in normalized coordinates."""
     corners = [(-0.9, -0.8), (0.7, -0.6), (0.5, 0.9), (-0.9, 0.1), (0.3, 0.2), (-0.4, 0.8), (-0.5, 0.3), (0.8, 0.3)]
