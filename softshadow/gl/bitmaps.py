@@ -186,6 +186,7 @@ def _bitmap(
     context = outside_begin("glBitmap")
     if context is None:
         return
+    context.flush_vertices()  # Mesa does so whatever follows
     if width < 0 or height < 0:
         fail(gl.GL_INVALID_VALUE, "glBitmap", f"width={width}, height={height}: expected 0 or more")
         return
@@ -209,8 +210,7 @@ def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
     text = context.text if isinstance(context.text, Text) else None
     if pixels.is_outside(left, bottom, text.size if text is not None else _size_of_target(context)):
         return
-    has_vertices = context.vertex_buffer.n_vertices or context.vertex_buffer.joined_pairs is not None
-    if text is not None and not has_vertices and text.add(context, pixels, left, bottom):
+    if text is not None and text.add(context, pixels, left, bottom):
         return
     context.flush()
     if pixels.is_small and context.gate is None:

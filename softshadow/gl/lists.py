@@ -125,10 +125,10 @@ def glCallLists(*arguments: Any) -> None:
 
 
 def _call(context: Context, name: int) -> None:
-    context.flush_vertices()
     compiled = context.lists.get(name)
     if compiled is None or not compiled.calls or context.list_depth == DEEPEST_LIST:
         return
+    context.flush_vertices()
     context.list_depth += 1
     try:
         carry_out(compiled.calls)
@@ -142,6 +142,7 @@ def glListBase(base: int) -> None:
     """Set the number that glCallLists adds to each name."""
     context = outside_begin("glListBase")
     if context is not None:
+        context.flush_vertices()
         context.list_base = int(base)
         context.touched |= gl.GL_LIST_BIT
 

@@ -53,10 +53,11 @@ COPIED = {  # type of glCopyPixels: format of its pixels
 @in_lists
 def glPixelZoom(xfactor: float, yfactor: float) -> None:
     """Set how many pixels wide and high each pixel of glDrawPixels and glCopyPixels is; negative factors mirror."""
-    context = outside_begin("glPixelZoom")
-    if context is not None:
+    context, zoom = outside_begin("glPixelZoom"), (float(np.float32(xfactor)), float(np.float32(yfactor)))
+    if context is not None and context.pixel_zoom != zoom:
+        context.flush_vertices()
         context.touched |= gl.GL_PIXEL_MODE_BIT
-        context.pixel_zoom = float(np.float32(xfactor)), float(np.float32(yfactor))
+        context.pixel_zoom = zoom
 
 
 def glDrawPixels(width: int, height: int, format: int, type: int, pixels: Any) -> None:
@@ -84,6 +85,7 @@ def _draw_pixels(width: int, height: int, format: int, type: int, image: np.ndar
     operation = "glDrawPixels"
     if (context := outside_begin(operation)) is None:
         return
+    context.flush_vertices()  # Mesa does so whatever follows
     if width < 0 or height < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     elif problem := pixels_problem(format, type):
@@ -160,6 +162,7 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
     operation = "glCopyPixels"
     if (context := outside_begin(operation)) is None:
         return
+    context.flush_vertices()  # Mesa does so whatever follows
     if width < 0 or height < 0:
         fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
         return

@@ -69,6 +69,7 @@ def _transfer(operation: str, pname: int, value: float) -> None:
         return
     after = evolve(before, **changed)
     if after != before:
+        context.flush_vertices()
         context.touched |= gl.GL_PIXEL_MODE_BIT
         context.pixel_transfer = after
 
@@ -140,6 +141,7 @@ def _set_map(operation: str, name: int, n_values: int, table: np.ndarray | None)
             table = np.rint(table)
         elif name != gl.GL_PIXEL_MAP_I_TO_I:
             table = np.fmax(table, np.float32(0)).clip(0, 1)
+        context.flush_vertices()
         maps = {**context.pixel_transfer.maps, name: table}
         context.pixel_transfer = evolve(context.pixel_transfer, maps=maps)
 
