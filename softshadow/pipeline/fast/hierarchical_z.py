@@ -17,7 +17,7 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import INFINITY, ZERO
-from softshadow.pipeline.fast.fragment_numbers import LARGEST, UNMASKED_REF, ZFAIL_OP, ZPASS_OP, update_of, updated
+from softshadow.pipeline.fast.fragment_numbers import ZFAIL_OP, ZPASS_OP
 from softshadow.pipeline.raster.depth import depth_at, depth_units
 from softshadow.pipeline.raster.fragment_ops import (
     ALWAYS,
@@ -196,22 +196,3 @@ def common_op(ops):
         for which in (ZFAIL_OP, ZPASS_OP):
             op = op if ops[facing, which] == KEEP else int(ops[facing, which])
     return INCR_WRAP if op == DECR_WRAP else op
-
-
-@kernel
-def apply_pending_updates(ops, byte_ops, pending, region, stencil):
-    """Apply the pending updates to whole tiles; row 0 of `pending` is the first row of tiles of the region."""
-    op, ref, largest = common_op(ops), byte_ops[0, UNMASKED_REF], byte_ops[0, LARGEST]
-    first_tile_row = region.first_row >> ROWS_LOG2
-    for tile_row in range(pending.shape[0]):
-        top, bottom = rows_of(first_tile_row + tile_row, region)
-        for tile in range(pending.shape[1]):
-            n = pending[tile_row, tile]
-            if n == 0 or op == KEEP:
-                continue
-            update = update_of(op, n, ref, largest)
-            left, right = columns_of_tile(tile, region)
-            for row in range(top, bottom):
-                values = stencil[row, left:right]
-                for k in range(np.uint64(right - left)):
-                    values[k] = updated(update, values[k], largest)

@@ -62,10 +62,14 @@ def is_small(corners, t, region, pitch):
 
 
 @cache
-def small_fill_for(tests_stencil: bool, writes_ids: bool) -> Any:
-    """Return the kernel `fill_small` for fills that test stencil values or not, and write ids or not."""
+def small_fill_for(tests_stencil: bool, writes_ids: bool, *, only_updates: bool = False) -> Any:
+    """Return the kernel `fill_small` for fills that test stencil values or not, and write ids or not.
 
-    @copied_kernel
+    With `only_updates`, it is for states under which all stencil values pass and are updated, and nothing else is. Then
+    it is not copied into its caller, whose loop over large triangles would take a fifth longer.
+    """
+
+    @(kernel if only_updates else copied_kernel)
     def fill_small(
         which_ids, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
         stencil, ids, passed, covered, ties,
@@ -113,7 +117,16 @@ def small_fill_for(tests_stencil: bool, writes_ids: bool) -> Any:
                 at2, across2, along2 = edge_from(x2, y2, x0, y0, x, y, flip)
                 for row in range(first, end):
                     j, row_at = np.uint64(row), np.float32(np.int32(row))
-                    if tests_stencil:
+                    if only_updates:
+                        for k in range(WIDEST):
+                            i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
+                            z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
+                            outside = outside_edges(at0, at1, at2, across0, across1, across2, np.int32(k))
+                            s, hit = stencil[j, i], depth_passes(depth_test, z, depth[j, i]) != 0
+                            passing, failing = updated(zpass, s, most), updated(zfail, s, most)
+                            after = passing if hit else failing
+                            stencil[j, i] = s if outside else after
+                    elif tests_stencil:
                         for k in range(WIDEST):
                             i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
@@ -150,7 +163,7 @@ def small_fill_for(tests_stencil: bool, writes_ids: bool) -> Any:
                             number = triangle if before == NO_TRIANGLE else repeated
                             depth[j, i] = z if np.int32(hit & writes_depth) else stored
                             ids[id_j, i] = number if hit else before
-                    elif writes_depth:
+                    elif writes_depth and not only_updates:
                         for k in range(n_columns):
                             i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)

@@ -36,7 +36,6 @@ from softshadow.pipeline.fast.hierarchical_z import (
     ROWS,
     ROWS_LOG2,
     TileBounds,
-    apply_pending_updates,
     columns_of_tile,
     common_op,
     complete_bounds,
@@ -46,7 +45,14 @@ from softshadow.pipeline.fast.hierarchical_z import (
     write_tile_bounds,
 )  # fmt: skip
 from softshadow.pipeline.fast.narrow_rows import WIDEST, extent_of_rows, fill_narrow
-from softshadow.pipeline.fast.small_triangles import columns_of, small_fill_for
+from softshadow.pipeline.fast.pending_updates import (
+    FEW,
+    PendingUpdates,
+    apply_pending_updates,
+    can_count,
+    count_rows,
+)  # fmt: skip
+from softshadow.pipeline.fast.small_triangles import columns_of, is_small, small_fill_for
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds, row_spans
@@ -131,44 +137,46 @@ def _fill_chunks(
     region: Region, depth_range: DepthRange, buffers: FillBuffers, bounds: TileBounds, stencil: np.ndarray,
 ) -> None:  # fmt: skip
     """Fill triangles, a chunk of their numbers after the other, and apply what is pending after the last."""
-    depth, first_tile_row = buffers.depth, region.first_row >> ROWS_LOG2
-    tiles = max(-(-region.end_row >> ROWS_LOG2) - first_tile_row, 0), max(-(-region.right >> COLUMNS_LOG2), 0)
-    pending, room = np.zeros(tiles, np.int32), np.empty((3, COLUMNS), depth.dtype)
+    depth, pending = buffers.depth, PendingUpdates.none(region)
+    room = np.empty((3, COLUMNS), depth.dtype)
     bytes_of_rows = np.empty(ROWS * COLUMNS, np.uint8), np.empty(CHUNK, np.uint8)
     lefts, rights = np.empty((2, region.end_row), np.int32)
     pitch = min(depth.shape[1], stencil.shape[1])
     for chunk in chunks:
         fill_in_tiles(
             *numbers, largest, triangles.corners, triangles.depth, triangles.front, chunk, region, depth_range, *bounds,
-            pitch, buffers.columns, depth, stencil, pending, room, *bytes_of_rows, lefts, rights,
+            pitch, WIDEST, buffers.columns, depth, stencil, pending, room, *bytes_of_rows, lefts, rights,
         )  # fmt: skip
     apply_pending_updates(*numbers, pending, region, stencil)
 
 
 # writes stencil values only; the arrays for numbers of triangles and for ties only have the types that it expects
-fill_small = small_fill_for(True, False)
+fill_small = small_fill_for(True, False, only_updates=True)
 
 
 @wide_kernel
 def fill_in_tiles(
-    ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch, columns,
-    depth, stencil, pending, room, passed, covered, lefts, rights,
+    ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch,
+    narrow, columns, depth, stencil, pending, room, passed, covered, lefts, rights,
 ):  # fmt: skip
     """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
 
     `ops` are the numbers of both facings, `lows`, `highs` and `width` the tile bounds, `pitch` the columns that both
-    buffers have; `pending` receives the updates of whole tiles, the arrays behind it are scratch.
+    buffers have, `narrow` the columns that rows narrower than a chunk have at most; `pending` receives updates that are
+    not made at once, the arrays behind it are scratch.
     """
     op, most = common_op(ops), byte_ops[0, LARGEST]
+    counts_rows = can_count(op, numbers.shape[0])
     func, depth_test = ops[0, DEPTH_FUNC], depth_test_of(ops, np.uint64(0))
     last_start = pitch - CHUNK
     first_tile_row = region.first_row >> ROWS_LOG2
     n = 0
     while n < numbers.shape[0]:
-        n = fill_small(
-            0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth, stencil,
-            pending, passed, covered, lefts,
-        )  # fmt: skip
+        if is_small(corners, np.uint64(numbers[n]), region, pitch):
+            n = fill_small(
+                0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
+                stencil, pending.whole, passed, covered, lefts,
+            )  # fmt: skip
         if n == numbers.shape[0]:
             break
         t = np.uint64(numbers[n])
@@ -205,15 +213,23 @@ def fill_in_tiles(
                 )  # fmt: skip
                 if what == NOTHING:
                     continue
-                if what != MIXED and has_all_rows and inner_left <= tile_left and inner_right >= tile_right:
-                    pending[tile_row - first_tile_row, tile] += (
-                        -1 if (zpass if what == PASS else zfail) == DECR_WRAP else 1
-                    )
-                    continue
-                if widest <= WIDEST and tile_left <= outer_left and outer_right <= tile_right:
+                if what != MIXED:
+                    here = tile_row - first_tile_row, tile
+                    once = -1 if (zpass if what == PASS else zfail) == DECR_WRAP else 1
+                    if has_all_rows and inner_left <= tile_left and inner_right >= tile_right:
+                        pending.whole[here] += once
+                        continue
+                    pending.parts[here] += counts_rows
+                    if pending.parts[here] >= FEW:
+                        count_rows(
+                            once, pending.parts[here], first_here, end_here, tile_row, tile, tile_left, tile_right,
+                            lefts, rights, pending.differences[here],
+                        )  # fmt: skip
+                        continue
+                elif widest <= narrow:
                     fill_narrow(
-                        what, op, widest, first_here, end_here, lefts, rights, pitch - 1, passing, failing, most,
-                        depth_test, z0, dz, dz_row, offset, depth_range, largest, depth, stencil,
+                        narrow, op, first_here, end_here, tile_left, tile_right, pitch, lefts, rights, passing, failing,
+                        most, depth_test, z0, dz, dz_row, offset, depth_range, largest, depth, stencil,
                     )  # fmt: skip
                     continue
                 # the chunks of a row: one from `left` on if that covers the tile's part of every row, else all of them

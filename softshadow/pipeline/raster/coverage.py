@@ -9,7 +9,7 @@ import numpy as np
 from softshadow.jit import kernel
 
 FARTHEST = np.int64(1 << 30)  # typed: for a literal, `narrow` would be compiled a second time
-EXACT = 1 << 52  # whole numbers below twice this are floats, and so are their products and sums here
+EXACT = 1 << 50  # for quotients of whole numbers below this, see `narrow_rows`
 
 
 @kernel
@@ -83,9 +83,10 @@ def row_span(corners, t, row, downwards):
 def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
     """Apply `narrow` in those of the rows [first, end) that the edge from corner 0 to corner 1 reaches.
 
-    The quotients of whole numbers below 2^53 are computed in float64: a quotient that is not whole is farther from the
-    next whole number than the rounding error, so its floor is exact. Eight rows are one vector. Larger numbers, which
-    no viewport produces, are handled row by row.
+    The quotients are computed in float64, of a number that lies 1/2 above a whole one: so they are at least half of
+    1/divisor away from all whole numbers. For numbers below 2^50, the product with the rounded reciprocal of the
+    divisor is closer to the quotient than this, and its floor is exact; a division takes much longer. Eight
+    rows are one vector. Larger numbers, which no viewport produces, are handled row by row.
     """
     first, end = max(first, (min(y0, y1) + 255) >> 8), min(end, (max(y0, y1) >> 8) + 1)
     if first >= end:
@@ -97,17 +98,19 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
             left, right = narrow(x0, y0, x1, y1, row, downwards, np.int64(lefts[row]), np.int64(rights[row]))
             lefts[row], rights[row] = left, right
         return
-    start, slope, over = float(value), float(step), float(divisor)
+    if across == 0:
+        if value < 0:  # along the row, the only one it can reach
+            rights[first] = min(rights[first], lefts[first])  # not beyond `right`, where the left end may be
+        return
+    start, slope, over = float(value) + 0.5, float(step), 1.0 / float(divisor)
     if across > 0:
         for k in range(end - first):
             j = np.uint64(first + k)
-            rights[j] = min(rights[j], np.int32(np.floor((start + slope * k) / over)) + np.int32(1))
-    elif across < 0:
+            rights[j] = min(rights[j], np.int32(np.floor((start + slope * k) * over)) + np.int32(1))
+    else:
         for k in range(end - first):
             j = np.uint64(first + k)
-            lefts[j] = max(lefts[j], -np.int32(np.floor((start + slope * k) / over)))
-    elif value < 0:  # along the row, the only one it can reach
-        rights[first] = min(rights[first], lefts[first])  # not beyond `right`, where the left end may be
+            lefts[j] = max(lefts[j], -np.int32(np.floor((start + slope * k) * over)))
 
 
 @kernel

@@ -152,6 +152,34 @@ def test_threads_that_share_the_triangles_leave_the_same_bits(seed, depth_format
             set_threads(before)
 
 
+@pytest.mark.parametrize("op", [gl.GL_INCR, gl.GL_DECR, gl.GL_INVERT, gl.GL_INCR_WRAP])
+@pytest.mark.parametrize("n", [3, 4, 5, 300, 2**16 - 1, 2**16, 2**16 + 7])
+def test_a_part_of_a_tile_is_updated_any_number_of_times(op, n):
+    front = facing(zfail=gl.GL_KEEP, zpass=op, depth_func=gl.GL_LESS)
+    window = np.ones((3, 4), np.float32)
+    window[:, :3] = (3, 2, 0.5), (100, 9, 0.5), (5, 11, 0.5)
+    one = set_up(
+        window, np.arange(3, dtype=np.int32)[None], Cull(), Offset(MAX_SLOPE, np.float32(0), np.float32(0), 1), True
+    )
+    assert len(one.ids) == 1
+    numbers, region = np.zeros(n, np.int32), Region(0, WIDTH, 0, HEIGHT, 1)
+    before = np.full((HEIGHT, PITCH), 100, np.uint8)
+    depth, stencil = np.ones((HEIGHT, PITCH), np.float32) * (2**24 - 1), before.copy()
+    cells = fill_buffers(depth, stencil, one.depth.dtype, region)
+    with np.errstate(all="ignore"):
+        stencil_tiles.tiles_kernel()(
+            front, front, one, numbers, region, DepthRange(np.float32(0), np.float32(1)), cells
+        )
+    covered = np.zeros(before.shape, bool)
+    for row in range(*bounds(one.corners, 0)):
+        covered[row, slice(*row_span(one.corners, 0, row, 1))] = True
+    after = {
+        gl.GL_INCR: min(100 + n, 255), gl.GL_DECR: max(100 - n, 0), gl.GL_INVERT: 155 if n % 2 else 100,
+        gl.GL_INCR_WRAP: (100 + n) % 256,
+    }  # fmt: skip
+    np.testing.assert_array_equal(stencil, np.where(covered, after[op], before))
+
+
 def test_many_small_triangles_are_shared_where_updates_are_sums():
     before, region = threads(), Region(0, 640, 0, 480, 1)
     try:
@@ -237,7 +265,7 @@ def test_depth_bounds_are_those_of_the_tile_and_infinite_with_nan():
 
 
 @pytest.mark.interpreted
-@given(seeds, st.booleans(), st.sampled_from([8, 12, 20, 28]))
+@given(seeds, st.booleans(), st.sampled_from([8, 12, 20, 22, 24, 28]))
 def test_row_spans_equal_row_span_in_every_row(seed, downwards, bits):
     rng = np.random.default_rng(seed)
     corners = large_and_small(rng, 8, downwards)[0].corners

@@ -7,7 +7,16 @@ from hypothesis import strategies as st
 
 from softshadow.pipeline.fast.small_triangles import columns_of, edge_from
 from softshadow.pipeline.geometry.triangle_setup import MAX_SLOPE, Offset, set_up
-from softshadow.pipeline.raster.coverage import bounds, edge, row_span, row_spans, triangles_at
+from softshadow.pipeline.raster.coverage import (
+    FARTHEST,
+    bounds,
+    edge,
+    narrow,
+    narrow_rows,
+    row_span,
+    row_spans,
+    triangles_at,
+)  # fmt: skip
 from softshadow.pipeline.raster.ordered import list_fragments
 from softshadow.pipeline.records import Region, Setup
 from softshadow.state import Cull
@@ -145,6 +154,26 @@ def test_spans_stay_within_the_columns_of_the_region(fan, downwards, left, right
         row_spans(corners, t, first, end, int(downwards), left, right, lefts, rights)
         assert (lefts[first:end] >= left).all()
         assert (rights[first:end] <= right).all()
+
+
+@given(st.integers(-(2**22), 2**22), st.integers(1, 2**24), st.integers(-3, 3), st.booleans(), st.booleans())
+@example(2**20 - 1, 2**22 - 1, 0, False, False)  # the largest numbers that are divided in floats
+@example(3608213, 4875587, 0, False, False)  # too large for it
+def test_edges_through_a_sample_in_every_row_are_exact(column, height, slope, is_left, downwards):
+    """There a quotient is a whole number, or the largest that is less: nothing is closer to the next one."""
+    x0, y0, across = 256 * column, 256 * 5, -height if is_left else height
+    ends = x0, y0, x0 - slope * across, y0 - across
+    low, high = sorted((y0 >> 8, (y0 - across) >> 8))
+    first = max(low, -20)
+    end = min(high, first + 40) + 1
+    lefts, rights = np.empty((2, 64), np.int32)
+    lefts[:], rights[:] = -FARTHEST, FARTHEST
+    moved = (ends[0], ends[1] - 256 * first, ends[2], ends[3] - 256 * first)  # rows as indices, from 0 on
+    narrow_rows(*moved, 0, end - first, int(downwards), lefts, rights)
+    for row in range(end - first):
+        expected = narrow(*moved, row, int(downwards), -FARTHEST, FARTHEST)
+        within = (min(moved[1], moved[3]) + 255) >> 8 <= row <= max(moved[1], moved[3]) >> 8
+        assert (lefts[row], rights[row]) == (expected if within else (-FARTHEST, FARTHEST))
 
 
 @given(window_fans(SIZE), st.booleans(), st.integers(0, 2**16 - 1), st.integers(0, 2**16 - 1))
