@@ -105,9 +105,9 @@ def small_fill_for(tests_stencil: bool, writes_ids: bool, *, only_updates: bool 
             if writes_ids:
                 triangle = np.int32(t)
                 repeated = SEVERAL_TRIANGLES if which_ids == ONLY else triangle
-            # of depths alone, rows of half the columns take less time; a number that varies would slow bytes down
+            # of depths and ids, rows of half the columns take less time; a number that varies would slow bytes down
             n_columns = np.int32(WIDEST)
-            if not (tests_stencil or writes_ids) and right - left <= HALF:
+            if not tests_stencil and right - left <= HALF:
                 n_columns = np.int32(HALF)
             while left < right:
                 start = np.int32(min(left, pitch - n_columns))
@@ -148,7 +148,7 @@ def small_fill_for(tests_stencil: bool, writes_ids: bool, *, only_updates: bool 
                             passed[np.uint64(k)] = np.uint8(np.uint8(hit & inside) & allowed)
                     if writes_ids:
                         id_j = np.uint64(row - region.first_row)
-                        for k in range(WIDEST):
+                        for k in range(WIDEST if tests_stencil else n_columns):
                             i, column = np.uint64(start) + np.uint64(k), start_at + np.float32(np.int32(k))
                             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                             stored, before = depth[j, i], ids[id_j, i]
