@@ -169,6 +169,22 @@ def collect_passing_spans(
                         every, some = test_depths(
                             numbers, largest, f, planes, t, depth_range, j, left, length, depth, START, True, whole
                         )
+                elif fits and tests_depth:
+                    every, some = test_depths_and_update_stencil(
+                        numbers,
+                        byte_numbers,
+                        largest,
+                        f,
+                        planes,
+                        t,
+                        depth_range,
+                        j,
+                        left,
+                        length,
+                        depth,
+                        stencil,
+                        whole,
+                    )
                 else:
                     every, some = test_span(
                         tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,
@@ -230,6 +246,36 @@ def test_stencil(numbers, f, j, left, length, stencil, whole):
         passes = np.int32(inside & np.int32(np.int8(allowed)))  # 255 as int8 is -1
         whole[MASK + n] = passes
         every, some = np.int32(every & np.int32(passes | ~inside)), np.int32(some | passes)
+    return every != 0, some != 0
+
+
+@copied_kernel
+def test_depths_and_update_stencil(
+    numbers, byte_numbers, largest, f, planes, t, depth_range, j, left, length, depth, stencil, whole
+):
+    """Do what `test_span` does where there are both tests, in one loop over whole portions, as `test_depths`."""
+    first, count, depth_test = np.uint64(left), np.int32(length), depth_test_of(numbers, f)
+    test, ref, read = stencil_test_of(byte_numbers, f), byte_numbers[f, REF], byte_numbers[f, READ]
+    write, most = byte_numbers[f, WRITE], byte_numbers[f, LARGEST]
+    sfail, zfail = stencil_update_of(byte_numbers, f, SFAIL), stencil_update_of(byte_numbers, f, ZFAIL)
+    zpass = stencil_update_of(byte_numbers, f, ZPASS)
+    z0, dz, dz_row, offset = planes[t, 0], planes[t, 1], planes[t, 2], planes[t, 3]
+    row_at, start_at = np.float32(np.int32(j)), np.float32(np.int32(left))
+    writes, every, some = np.int32(-1 if numbers[f, DEPTH_WRITE] else 0), np.int32(-1), np.int32(0)
+    for n in range(whole_portions(length)):
+        place = np.int32(n)
+        z = depth_of(z0, dz, dz_row, offset, start_at + np.float32(place), row_at, depth_range, largest)
+        stored, s, inside = depth[j, first + n], stencil[j, first + n], np.int32(-1 if place < count else 0)
+        hit, allowed = depth_passes(depth_test, z, stored), stencil_passes(test, ref, np.uint8(s & read))
+        passing, failing, denied = updated(zpass, s, most), updated(zfail, s, most), updated(sfail, s, most)
+        after = passing if hit else failing
+        after = after if allowed else denied
+        changed = np.uint8(np.uint8(s ^ after) & write)
+        stencil[j, first + n] = np.uint8(s ^ changed) if inside else s
+        passes = np.int32(np.int32(hit & np.int32(np.int8(allowed))) & inside)  # 255 as int8 is -1
+        whole[MASK + n] = passes
+        every, some = np.int32(every & np.int32(passes | ~inside)), np.int32(some | passes)
+        depth[j, first + n] = z if np.int32(passes & writes) else stored
     return every != 0, some != 0
 
 
