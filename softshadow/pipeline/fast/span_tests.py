@@ -171,20 +171,9 @@ def collect_passing_spans(
                         )
                 elif fits and tests_depth:
                     every, some = test_depths_and_update_stencil(
-                        numbers,
-                        byte_numbers,
-                        largest,
-                        f,
-                        planes,
-                        t,
-                        depth_range,
-                        j,
-                        left,
-                        length,
-                        depth,
-                        stencil,
+                        numbers, byte_numbers, largest, f, planes, t, depth_range, j, left, length, depth, stencil,
                         whole,
-                    )
+                    )  # fmt: skip
                 else:
                     every, some = test_span(
                         tests_depth, tests_stencil, numbers, byte_numbers, largest, f, planes, t, depth_range, j, left,

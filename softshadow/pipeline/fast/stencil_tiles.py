@@ -139,25 +139,25 @@ def _fill_chunks(
     """Fill triangles, a chunk of their numbers after the other, and apply what is pending after the last."""
     depth, pending = buffers.depth, PendingUpdates.none(region)
     room = np.empty((3, COLUMNS), depth.dtype)
-    bytes_of_rows = np.empty(ROWS * COLUMNS, np.uint8), np.empty(CHUNK, np.uint8)
+    passed = np.empty(ROWS * COLUMNS, np.uint8)
     lefts, rights = np.empty((2, region.end_row), np.int32)
     pitch = min(depth.shape[1], stencil.shape[1])
     for chunk in chunks:
         fill_in_tiles(
             *numbers, largest, triangles.corners, triangles.depth, triangles.front, chunk, region, depth_range, *bounds,
-            pitch, WIDEST, buffers.columns, depth, stencil, pending, room, *bytes_of_rows, lefts, rights,
+            pitch, WIDEST, buffers.columns, depth, stencil, pending, room, passed, lefts, rights,
         )  # fmt: skip
     apply_pending_updates(*numbers, pending, region, stencil)
 
 
-# writes stencil values only; the arrays for numbers of triangles and for ties only have the types that it expects
+# changes stencil values only; its arrays behind these only have the types that it expects
 fill_small = small_fill_for(True, False, only_updates=True)
 
 
 @wide_kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch,
-    narrow, columns, depth, stencil, pending, room, passed, covered, lefts, rights,
+    narrow, columns, depth, stencil, pending, room, passed, lefts, rights,
 ):  # fmt: skip
     """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
 
@@ -175,7 +175,7 @@ def fill_in_tiles(
         if is_small(corners, np.uint64(numbers[n]), region, pitch):
             n = fill_small(
                 0, ops, byte_ops, largest, corners, planes, faces, numbers, n, region, depth_range, pitch, depth,
-                stencil, pending.whole, passed, covered, lefts,
+                stencil, pending.whole, passed, passed, lefts,
             )  # fmt: skip
         if n == numbers.shape[0]:
             break
