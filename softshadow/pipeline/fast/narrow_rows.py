@@ -34,29 +34,28 @@ def extent_of_rows(first, end, left, right, lefts, rights):
 
 @kernel
 def fill_narrow(
-    n_columns, op, first, end, left, right, pitch, lefts, rights, passing, failing, most, depth_test, z0, dz, dz_row,
-    offset, depth_range, largest, depth, stencil,
+    op, first, end, left, right, pitch, lefts, rights, passing, failing, most, depth_test, z0, dz, dz_row, offset,
+    depth_range, largest, depth, stencil,
 ):  # fmt: skip
     """Test and update a triangle's rows [first, end) in the columns [left, right) of a tile.
 
-    `n_columns` from the first one of each row on are one vector: WIDEST, as an argument, since the compiler unrolls a
-    loop of so few instead. `op` is the `common_op`, `pitch` the columns of the buffers. Outside of the triangle, the
-    stored values are written back.
+    WIDEST columns from the first one of each row on are one vector. `op` is the `common_op`, `pitch` the columns of the
+    buffers. Outside of the triangle, the stored values are written back.
     """
     for row in range(np.int64(first), np.int64(end)):
         j, row_at = np.uint64(row), np.float32(np.int32(row))
         row_left, row_right = max(np.int64(lefts[j]), np.int64(left)), min(np.int64(rights[j]), np.int64(right))
-        at = min(row_left, pitch - n_columns)
+        at = min(row_left, pitch - WIDEST)
         begin, stop, start_at = np.int32(row_left - at), np.int32(row_right - at), np.float32(np.int32(at))
         if op == INCR_WRAP:
-            for k in range(n_columns):
+            for k in range(WIDEST):
                 i, column = np.uint64(at) + np.uint64(k), start_at + np.float32(np.int32(k))
                 z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
                 step = passing.step if depth_passes(depth_test, z, depth[j, i]) != 0 else failing.step
                 step = step if (np.int32(k) >= begin) & (np.int32(k) < stop) else NONE
                 stencil[j, i] = np.uint8(np.uint8(stencil[j, i] + step) & most)
             continue
-        for k in range(n_columns):
+        for k in range(WIDEST):
             i, column = np.uint64(at) + np.uint64(k), start_at + np.float32(np.int32(k))
             z = depth_of(z0, dz, dz_row, offset, column, row_at, depth_range, largest)
             s, hit = stencil[j, i], depth_passes(depth_test, z, depth[j, i]) != 0

@@ -145,25 +145,24 @@ def _fill_chunks(
     for chunk in chunks:
         fill_in_tiles(
             *numbers, largest, triangles.corners, triangles.depth, triangles.front, chunk, region, depth_range, *bounds,
-            pitch, WIDEST, buffers.columns, depth, stencil, pending, room, passed, lefts, rights,
+            pitch, buffers.columns, depth, stencil, pending, room, passed, lefts, rights,
         )  # fmt: skip
     apply_pending_updates(*numbers, pending, region, stencil)
 
 
-# changes stencil values only; its arrays behind these only have the types that it expects
+# changes stencil values only: of the arrays that come after them, it needs only the types
 fill_small = small_fill_for(True, False, only_updates=True)
 
 
 @wide_kernel
 def fill_in_tiles(
     ops, byte_ops, largest, corners, planes, faces, numbers, region, depth_range, lows, highs, width, pitch,
-    narrow, columns, depth, stencil, pending, room, passed, lefts, rights,
+    columns, depth, stencil, pending, room, passed, lefts, rights,
 ):  # fmt: skip
     """Fill triangles under a state that is `order_independent`; small ones bypass the tiles.
 
     `ops` are the numbers of both facings, `lows`, `highs` and `width` the tile bounds, `pitch` the columns that both
-    buffers have, `narrow` the columns that rows narrower than a chunk have at most; `pending` receives updates that are
-    not made at once, the arrays behind it are scratch.
+    buffers have; `pending` receives updates that are not made at once, the arrays behind it are scratch.
     """
     op, most = common_op(ops), byte_ops[0, LARGEST]
     counts_rows = can_count(op, numbers.shape[0])
@@ -226,10 +225,10 @@ def fill_in_tiles(
                             lefts, rights, pending.differences[here],
                         )  # fmt: skip
                         continue
-                elif widest <= narrow:
+                elif widest <= WIDEST:
                     fill_narrow(
-                        narrow, op, first_here, end_here, tile_left, tile_right, pitch, lefts, rights, passing, failing,
-                        most, depth_test, z0, dz, dz_row, offset, depth_range, largest, depth, stencil,
+                        op, first_here, end_here, tile_left, tile_right, pitch, lefts, rights, passing, failing, most,
+                        depth_test, z0, dz, dz_row, offset, depth_range, largest, depth, stencil,
                     )  # fmt: skip
                     continue
                 # the chunks of a row: one from `left` on if that covers the tile's part of every row, else all of them

@@ -85,8 +85,8 @@ def narrow_rows(x0, y0, x1, y1, first, end, downwards, lefts, rights):
 
     The quotients are computed in float64, of a number that lies 1/2 above a whole one: so they are at least half of
     1/divisor away from all whole numbers. For numbers below 2^50, the product with the rounded reciprocal of the
-    divisor is closer to the quotient than this, and its floor is exact; a division takes much longer. Eight
-    rows are one vector. Larger numbers, which no viewport produces, are handled row by row.
+    divisor is closer to the quotient than this, and its floor is exact; a division takes much longer. Eight rows are
+    one vector. Larger numbers, which no viewport produces, are handled row by row.
     """
     first, end = max(first, (min(y0, y1) + 255) >> 8), min(end, (max(y0, y1) >> 8) + 1)
     if first >= end:

@@ -21,11 +21,15 @@ from softshadow import gl
 from softshadow.jit import kernel, parts, wide_kernel
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.fast import any_state, stencil_tiles
+from softshadow.pipeline.fast.fragment_numbers import depth_test_of, numbers_of, update_of
+from softshadow.pipeline.fast.narrow_rows import extent_of_rows, fill_narrow
 from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, process_fragment
+from softshadow.pipeline.records import DepthRange
 
 # in AVX and AVX-512, with registers of 32 or 64 bytes; SSE has the same names without the v
 PACKED_FLOATS_COMPARED = re.compile(r"\bv?cmp\w*ps\b[^\n]*%[xyz]mm|\bv?(?:min|max)ps\b[^\n]*%[xyz]mm")
 PACKED_BYTES_COUNTED = re.compile(r"\bv?p(?:add|sub)b\b[^\n]*%[xyz]mm")
+PACKED_INTEGERS_COMPARED = re.compile(r"\bv?pminsd\b[^\n]*%[xyz]mm")
 FLOATS_WIDENED = re.compile(r"\bv?cvtps2pd\b")
 BYTES_WIDENED = re.compile(r"\bv?pmov[sz]x[bw]q\b|\bvpmovqb\b")  # in one step or by way of words, and back
 MASKED_STORE = re.compile(r"\bvp?maskmov\w+[^\n]*\)$", re.MULTILINE)  # of a load, the last operand is a register
@@ -138,6 +142,28 @@ def test_stencil_values_are_counted_many_at_a_time(kernels, name):
 def test_neither_floats_nor_bytes_are_widened_to_64_bits(kernels, name):
     assert not FLOATS_WIDENED.search(kernels[name])
     assert not BYTES_WIDENED.search(kernels[name])
+
+
+def test_the_extent_of_a_triangle_in_a_tile_is_found_many_rows_at_a_time():
+    """Other loops in the kernel of tiles hide it there."""
+    columns = numba.types.int32[::1]
+    code = machine_code(extent_of_rows.py_func, (*[numba.types.int64] * 4, columns, columns), decorator=wide_kernel)
+    assert PACKED_INTEGERS_COMPARED.search(code)
+
+
+def test_narrow_rows_are_tested_and_counted_many_columns_at_a_time():
+    keep, up, always = gl.GL_KEEP, gl.GL_INCR_WRAP, gl.GL_ALWAYS
+    ops = FragmentOps(0, always, 1, always, keep, up, keep, 255, 1, gl.GL_LESS, 0, 2**24 - 1, 0, 0, 255, 255)
+    columns, byte, real = np.zeros(64, np.int32), np.uint8(255), np.float32(0)
+    update, test = update_of(up, 1, 0, 255), depth_test_of(numbers_of(ops, ops)[0], 0)
+    buffers = np.zeros((64, 64), np.float32), np.zeros((64, 64), np.uint8)
+    arguments = (
+        up, 0, 16, 0, 64, 64, columns, columns, update, update, byte, test, real, real, real, real,
+        DepthRange(real, real), 2**24 - 1, *buffers,
+    )  # fmt: skip
+    code = machine_code(fill_narrow.py_func, tuple(map(numba.typeof, arguments)), decorator=wide_kernel)
+    assert PACKED_FLOATS_COMPARED.search(code)
+    assert PACKED_BYTES_COUNTED.search(code)
 
 
 def test_the_search_for_masked_stores_finds_stores_only():

@@ -157,8 +157,8 @@ def test_spans_stay_within_the_columns_of_the_region(fan, downwards, left, right
 
 
 @given(st.integers(-(2**22), 2**22), st.integers(1, 2**24), st.integers(-3, 3), st.booleans(), st.booleans())
-@example(2**20 - 1, 2**22 - 1, 0, False, False)  # the largest numbers that are divided in floats
-@example(3608213, 4875587, 0, False, False)  # too large for it
+@example(2**20 - 1, 2**22 - 1, 0, False, False)  # the largest numbers for which floats are used
+@example(3608213, 4875587, 0, False, False)  # too large for them
 def test_edges_through_a_sample_in_every_row_are_exact(column, height, slope, is_left, downwards):
     """There a quotient is a whole number, or the largest that is less: nothing is closer to the next one."""
     x0, y0, across = 256 * column, 256 * 5, -height if is_left else height
