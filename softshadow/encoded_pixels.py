@@ -67,9 +67,10 @@ def encoded(pixels: np.ndarray, pixel_format: int, format: Format, type: int) ->
     if format.encoding == "unorm" and not is_packed and pixels.dtype.kind in "ui":
         n_bits = pixels.dtype.itemsize * 8 - (pixels.dtype.kind == "i")
         if format.is_array or is_direct:
-            rgba = to_base(
-                as_rgba(np.maximum(pixels, 0).astype(np.int64), pixel_format, (1 << n_bits) - 1), format.base
-            )
+            positive = pixels if pixels.dtype.kind == "u" else np.maximum(pixels, 0)
+            rgba = to_base(as_rgba(positive, pixel_format, (1 << n_bits) - 1), format.base)
+            if format.bits == (n_bits, n_bits, n_bits, n_bits) and format.dtype == F32:
+                return as_floats(rgba, n_bits)
             return cells_of(codes_of_integers(rgba, n_bits, format), format)
     floats = packed_to_float(pixels, packed) if packed is not None and is_packed else to_float(pixels)
     rgba = to_base(as_rgba(floats, pixel_format, 1), format.base)

@@ -7,6 +7,8 @@ GL_UNSIGNED_INT, and as the smallest integer with GL_INT.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from softshadow import tokens as gl
@@ -28,6 +30,7 @@ from softshadow.color_values import (
 )
 from softshadow.encoded_pixels import bytes_of, decoded, encoded, encoded_bytes
 from softshadow.image import D32F, Format
+from softshadow.jit import read_only
 from softshadow.packed_colors import PACKED_COLORS, PackedColor, with_more_bits
 from softshadow.packed_floats import SharedExponent
 from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
@@ -38,6 +41,7 @@ LARGEST_UINT = (1 << 32) - 1
 LARGEST_24 = (1 << 24) - 1
 LARGEST_SAMPLED = (1 << 23) - 1  # llvmpipe samples the upper 23 bits of 32-bit depth
 UNCHANGED = PixelTransfer()
+MANY = 1 << 14  # packed pixels; so many of up to 16 bits are converted by a table of all that there can be
 
 
 def stored_units(units: np.ndarray) -> np.ndarray:
@@ -212,12 +216,29 @@ def unpack_color(
     `type` is that of packed pixels, one element per pixel; others are known by their dtype. Colour indices become
     colours by the tables of glPixelMap.
     """
+    if type in PACKED_COLORS and pixels.itemsize <= 2 and pixels.size >= MANY and not transfer.through_floats:
+        return _cells_of_words(pixel_format, format, type).take(pixels[..., 0], axis=0)
+    return _converted_color(pixels, pixel_format, format, type, transfer)
+
+
+@lru_cache(maxsize=8)
+def _cells_of_words(pixel_format: int, format: Format, type: int) -> np.ndarray:
+    """Return the cells of all packed pixels of 8 or 16 bits, by their numbers: (256, 4) or (65536, 4)."""
+    dtype = PACKED_COLORS[type].dtype
+    words = np.arange(np.iinfo(dtype).max + 1, dtype=dtype)
+    cells = _converted_color(words[:, np.newaxis, np.newaxis], pixel_format, format, type, UNCHANGED)
+    return read_only(cells[:, 0])
+
+
+def _converted_color(
+    pixels: np.ndarray, pixel_format: int, format: Format, type: int, transfer: PixelTransfer
+) -> np.ndarray:
     if format.encoding == "srgb":
-        return encoded_bytes(unpack_color(pixels, pixel_format, bytes_of(format), type, transfer), format)
+        return encoded_bytes(_converted_color(pixels, pixel_format, bytes_of(format), type, transfer), format)
     if pixel_format == gl.GL_COLOR_INDEX:
         indices = pixels[..., 0].astype(np.int64) & LARGEST_UINT
         colors = to_unorm8(transfer.indexed_color(transfer.shifted(indices)))  # as in Mesa, whatever the format
-        return unpack_color(colors, gl.GL_RGBA, format, gl.GL_UNSIGNED_BYTE)
+        return _converted_color(colors, gl.GL_RGBA, format, gl.GL_UNSIGNED_BYTE, UNCHANGED)
     packed = PACKED_COLORS.get(type)
     if transfer.through_floats:
         floats = packed_to_float(pixels, packed) if packed else to_float(pixels)

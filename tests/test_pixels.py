@@ -7,10 +7,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from softshadow import color_values
+from softshadow import pixels as conversions
 from softshadow import tokens as gl
 from softshadow.image import D24, D32F, FORMATS
+from softshadow.packed_colors import PACKED_COLORS
 from softshadow.pipeline.shade.color_writes import rounded_floats
 from softshadow.pixel_store import COMPONENTS
+from softshadow.pixel_transfer import PixelTransfer
 from softshadow.pixels import (
     pack_color,
     pack_color_into,
@@ -177,6 +180,31 @@ def test_large_images_of_floats_become_the_bytes_of_small_ones(monkeypatch):
     one_pass, by_steps = both_ways(monkeypatch, lambda: color_values.to_unorm8(values))
     assert (one_pass == by_steps).all()
     assert (rounded_floats(values[:-1][values[:-1] != np.inf]) == by_steps[:-1][values[:-1] != np.inf]).all()
+
+
+SHORT_WORDS = [kind for kind, packed in PACKED_COLORS.items() if packed.dtype.itemsize <= 2]
+STORED = ("RGBA8", "RGB8", "LUMINANCE8", "RGB565", "RGBA4", "RGB5_A1", "RGBA16", "RGBA16F", "RGBA32F", "SRGB8_ALPHA8")
+
+
+@pytest.mark.parametrize("internal", STORED)
+@pytest.mark.parametrize("kind", SHORT_WORDS, ids=gl.token_name)
+def test_many_packed_pixels_are_stored_as_few(monkeypatch, kind, internal):
+    packed, stored = PACKED_COLORS[kind], FORMATS[getattr(gl, "GL_" + internal)]
+    words = np.arange(1 << 16).astype(packed.dtype).reshape(256, 256, 1)
+    for pixel_format in packed.formats:
+        monkeypatch.undo()
+        by_table = unpack_color(words, pixel_format, stored, kind)
+        monkeypatch.setattr(conversions, "MANY", words.size + 1)
+        one_by_one = unpack_color(words, pixel_format, stored, kind)
+        assert (by_table.dtype, by_table.shape) == (one_by_one.dtype, one_by_one.shape)
+        assert by_table.tobytes() == one_by_one.tobytes()
+
+
+def test_many_packed_pixels_are_scaled_as_glPixelTransfer_says():
+    words = np.full((256, 256, 1), 0xFFFF, np.uint16)
+    half = PixelTransfer(scales=((0.5, 0.0),) * 3 + ((1.0, 0.0),))
+    cells = unpack_color(words, gl.GL_RGB, FORMATS[gl.GL_RGBA8], gl.GL_UNSIGNED_SHORT_5_6_5, half)
+    assert (cells == (128, 128, 128, 255)).all()
 
 
 @given(arrays(np.uint8, 8), arrays(np.int16, 8), arrays(np.uint32, 8))
