@@ -85,10 +85,11 @@ from softshadow.tokens import *
 # calls that programs make most: a function around them would take longer than they do
 FREQUENT = (
     "glBegin", "glEnd", "glVertex2f", "glVertex2fv", "glVertex3f", "glVertex3fv", "glVertex4f", "glVertex4fv",
-    "glColor3f", "glColor3fv", "glColor4f", "glColor4fv", "glNormal3f", "glNormal3fv", "glTexCoord2f", "glTexCoord2fv",
-    "glArrayElement", "glEnable", "glDisable", "glMatrixMode", "glPushMatrix", "glPopMatrix", "glLoadIdentity",
-    "glTranslatef", "glScalef", "glRotatef", "glOrtho", "glPushAttrib", "glPopAttrib", "glCallList", "glGetError",
-    "glStencilFunc", "glTexParameteri", "glPolygonOffset", "glLineWidth", "glDepthRange", "glShadeModel", "glFogf",
+    "glColor3f", "glColor3fv", "glColor4f", "glColor4fv", "glColor3ub", "glColor4ub", "glNormal3f", "glNormal3fv",
+    "glTexCoord2f", "glTexCoord2fv", "glArrayElement", "glEnable", "glDisable", "glMatrixMode", "glPushMatrix",
+    "glPopMatrix", "glLoadIdentity", "glTranslatef", "glScalef", "glRotatef", "glOrtho", "glPushAttrib",
+    "glPopAttrib", "glCallList", "glGetError", "glStencilFunc", "glTexParameteri", "glPolygonOffset", "glLineWidth",
+    "glDepthRange", "glShadeModel", "glFogf",
 )  # fmt: skip
 globals().update(all_naming_arguments(globals(), FREQUENT))
 

@@ -6,7 +6,7 @@ from ctypes import c_int
 
 from softshadow import tokens as gl
 from softshadow.context import thread
-from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
+from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import clamp01, rounded
 from softshadow.gl.framebuffers import framebuffer_status
@@ -21,28 +21,26 @@ def glClearColor(red: float, green: float, blue: float, alpha: float) -> None:
     context = thread.context
     if context.ready or is_allowed(context, glClearColor, red, green, blue, alpha):
         context.touched |= gl.GL_COLOR_BUFFER_BIT
-        context.change("color", clear=rounded(context, red, green, blue, alpha))
+        context.change_field("color", "clear", rounded(context, red, green, blue, alpha))
 
 
-@in_lists
 def glClearDepth(depth: float) -> None:
     """Set the clear depth, clamped to [0, 1]."""
-    context = outside_begin("glClearDepth")
-    if context is not None:
+    context = thread.context
+    if context.ready or is_allowed(context, glClearDepth, depth):
         context.touched |= gl.GL_DEPTH_BUFFER_BIT
-        context.change("depth", clear=clamp01(depth))
+        context.change_field("depth", "clear", clamp01(depth))
 
 
 glClearDepthf = glClearDepth
 
 
-@in_lists
 def glClearStencil(s: int) -> None:
     """Set the clear value of the stencil buffer."""
-    context = outside_begin("glClearStencil")
-    if context is not None:
+    context = thread.context
+    if context.ready or is_allowed(context, glClearStencil, s):
         context.touched |= gl.GL_STENCIL_BUFFER_BIT
-        context.change("stencil", clear=c_int(int(s)).value)
+        context.change_field("stencil", "clear", c_int(int(s)).value)
 
 
 def glClear(mask: int) -> None:

@@ -28,7 +28,9 @@ FACES = (gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
 FRONT, BACKS = "stencil.front", ("stencil.back", "stencil.other_back")  # GL 2.0's back state, without and with two_side
 BOTH_FACES = tuple((FRONT, back) for back in BACKS)
 A_FACE = "GL_FRONT, GL_BACK or GL_FRONT_AND_BACK"
-EQUATIONS = (gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX)
+EQUATIONS = {equation: equation for equation in (
+    gl.GL_FUNC_ADD, gl.GL_FUNC_SUBTRACT, gl.GL_FUNC_REVERSE_SUBTRACT, gl.GL_MIN, gl.GL_MAX,
+)}  # fmt: skip
 AN_EQUATION = "GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN or GL_MAX"
 FACTORS = {factor: factor for factor in (
     gl.GL_ZERO, gl.GL_ONE, gl.GL_SRC_COLOR, gl.GL_ONE_MINUS_SRC_COLOR, gl.GL_DST_COLOR, gl.GL_ONE_MINUS_DST_COLOR,
@@ -103,12 +105,13 @@ def glDepthMask(flag: Any) -> None:
         context.change_field("depth", "write", bool(flag))
 
 
-@in_lists
 def glAlphaFunc(func: int, ref: float) -> None:
     """Set comparison and reference of the alpha test; the test clamps the reference to [0, 1]."""
-    context = outside_begin("glAlphaFunc")
-    if context is not None and is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
-        context.change("alpha", func=int(func), ref=rounded_number(context, ref))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glAlphaFunc, func, ref)):
+        return
+    if func in FUNCTIONS or is_one_of("glAlphaFunc", "func", func, FUNCTIONS, A_FUNCTION):
+        context.change_fields("alpha", {"func": FUNCTIONS[func], "ref": rounded_number(context, ref)})
 
 
 # -- stencil test ------------------------------------------------------------------------------------------------------
@@ -302,42 +305,40 @@ def _blend_func(
     )
 
 
-@in_lists
 def glBlendEquation(mode: int) -> None:
     """Set the blend equation."""
-    _blend_equation("glBlendEquation", mode, mode)
+    context = thread.context
+    if not (context.ready or is_allowed(context, glBlendEquation, mode)):
+        return
+    if mode in EQUATIONS or is_one_of("glBlendEquation", "mode", mode, EQUATIONS, AN_EQUATION):
+        context.change_fields("blend", {"equation_rgb": EQUATIONS[mode], "equation_alpha": EQUATIONS[mode]})
 
 
-@in_lists
 def glBlendEquationSeparate(modeRGB: int, modeAlpha: int) -> None:
     """Set the blend equation separately for colour and alpha."""
-    _blend_equation("glBlendEquationSeparate", modeRGB, modeAlpha)
-
-
-def _blend_equation(operation: str, mode_rgb: int, mode_alpha: int) -> None:
-    context = outside_begin(operation)
-    if context is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glBlendEquationSeparate, modeRGB, modeAlpha)):
         return
-    for name, value in (("modeRGB", mode_rgb), ("modeAlpha", mode_alpha)):
-        if not is_one_of(operation, name, value, EQUATIONS, AN_EQUATION):
+    for name, value in (("modeRGB", modeRGB), ("modeAlpha", modeAlpha)):
+        if not is_one_of("glBlendEquationSeparate", name, value, EQUATIONS, AN_EQUATION):
             return
-    context.change("blend", equation_rgb=int(mode_rgb), equation_alpha=int(mode_alpha))
+    context.change_fields("blend", {"equation_rgb": EQUATIONS[modeRGB], "equation_alpha": EQUATIONS[modeAlpha]})
 
 
-@in_lists
 def glBlendColor(red: float, green: float, blue: float, alpha: float) -> None:
     """Set the constant blend colour."""
-    context = outside_begin("glBlendColor")
-    if context is not None:
-        context.change("blend", color=rounded(context, red, green, blue, alpha))
+    context = thread.context
+    if context.ready or is_allowed(context, glBlendColor, red, green, blue, alpha):
+        context.change_field("blend", "color", rounded(context, red, green, blue, alpha))
 
 
-@in_lists
 def glLogicOp(opcode: int) -> None:
     """Set the bitwise operation of GL_COLOR_LOGIC_OP."""
-    context = outside_begin("glLogicOp")
-    if context is not None and is_one_of("glLogicOp", "opcode", opcode, LOGIC_OPS, "GL_CLEAR … GL_SET"):
-        context.change("blend", logic_op=int(opcode))
+    context = thread.context
+    if not (context.ready or is_allowed(context, glLogicOp, opcode)):
+        return
+    if is_one_of("glLogicOp", "opcode", opcode, LOGIC_OPS, "GL_CLEAR … GL_SET"):
+        context.change_field("blend", "logic_op", int(opcode))
 
 
 __all__ = spelled_like_gl(globals())

@@ -36,6 +36,7 @@ SHADE_MODELS = (gl.GL_FLAT, gl.GL_SMOOTH)
 COLOR_CONTROLS = (gl.GL_SINGLE_COLOR, gl.GL_SEPARATE_SPECULAR_COLOR)
 CONVENTIONS = (gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION)
 A_CONVENTION = "GL_FIRST_VERTEX_CONVENTION or GL_LAST_VERTEX_CONVENTION"
+GROUPS = {light: f"lighting.lights.{light - gl.GL_LIGHT0}" for light in LIGHTS}  # of the state
 A_LIGHT = "GL_LIGHT0 … GL_LIGHT7"
 A_PARAMETER = "a light parameter (GL 2.1, table 2.11)"
 
@@ -53,13 +54,15 @@ def glLightiv(light: int, pname: int, params: Any) -> None:
     _set("glLightiv", light, pname, params, from_int)
 
 
-@in_lists
 def glLightf(light: int, pname: int, param: float) -> None:
     """Set a parameter of a light that is a single number."""
-    if outside_begin("glLightf") is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glLightf, light, pname, param)):
         return
-    if is_one_of("glLightf", "pname", pname, NUMBERS, "a light parameter that is a single number"):
-        _set("glLightf", light, pname, param, float)
+    if not is_one_of("glLightf", "pname", pname, NUMBERS, "a light parameter that is a single number"):
+        return
+    if is_one_of("glLightf", "light", light, LIGHTS, A_LIGHT):
+        _set_number("glLightf", context, light, pname, float(param))
 
 
 glLighti = glLightf
@@ -75,11 +78,11 @@ def _set(operation: str, light: int, pname: int, params: Any, color: Callable[[A
     if pname in NUMBERS:
         _set_number(operation, context, light, pname, first(params, plain))
     elif pname in COLORS:
-        _replace(context, light, **{COLORS[pname]: rounded(context, *vector(params, 4, color))})
+        _replace(context, light, COLORS[pname], rounded(context, *vector(params, 4, color)))
     elif pname == gl.GL_POSITION:
-        _replace(context, light, position=in_eye_space(context, vector(params, 4, plain)))
+        _replace(context, light, "position", in_eye_space(context, vector(params, 4, plain)))
     else:
-        _replace(context, light, spot_direction=in_eye_space(context, vector(params, 3, plain)))
+        _replace(context, light, "spot_direction", in_eye_space(context, vector(params, 3, plain)))
 
 
 def in_eye_space(context: Context, place: Any) -> tuple[float, ...]:
@@ -100,11 +103,11 @@ def _set_number(operation: str, context: Context, light: int, pname: int, value:
         expected = "0 to 90, or 180" if pname == gl.GL_SPOT_CUTOFF else f"0 to {largest:g}"
         fail(gl.GL_INVALID_VALUE, operation, f"param={value:g}: expected {expected} for GL_{field.upper()}")
     else:
-        _replace(context, light, **{field: rounded_number(context, value)})
+        _replace(context, light, field, rounded_number(context, value))
 
 
-def _replace(context: Context, light: int, **fields: Any) -> None:
-    context.change(f"lighting.lights.{light - gl.GL_LIGHT0}", **fields)
+def _replace(context: Context, light: int, field: str, value: Any) -> None:
+    context.change_field(GROUPS[light], field, value)
 
 
 def glGetLightfv(light: int, pname: int) -> Any:
@@ -139,12 +142,14 @@ def glLightModeliv(pname: int, params: Any) -> None:
     _set_model("glLightModeliv", pname, params, from_int)
 
 
-@in_lists
 def glLightModelf(pname: int, param: float) -> None:
     """Set a switch of the light model: local viewer, two-sided lighting, separate specular colour."""
-    if outside_begin("glLightModelf") is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glLightModelf, pname, param)):
         return
-    if is_one_of("glLightModelf", "pname", pname, MODEL_NUMBERS, "a switch of the light model"):
+    if pname in MODEL_SWITCHES:
+        context.change_field("lighting", MODEL_SWITCHES[pname], bool(float(param)))
+    elif is_one_of("glLightModelf", "pname", pname, MODEL_NUMBERS, "a switch of the light model"):
         _set_model("glLightModelf", pname, param, float)
 
 

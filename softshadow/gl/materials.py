@@ -8,7 +8,7 @@ from typing import Any
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
 from softshadow.context.current_values import MATERIALS
-from softshadow.gl.calls import in_lists, record, spelled_like_gl
+from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import as_floats, as_ints, first, from_int, nearest_int, to_int, vector
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.fragment_state import A_FACE, FACES, rounded, rounded_number
@@ -124,11 +124,12 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------
-@in_lists
 def glColorMaterial(face: int, mode: int) -> None:
     """Set which material colours follow glColor while GL_COLOR_MATERIAL is enabled."""
-    context = outside_begin("glColorMaterial")
-    if context is None or not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
+    context = thread.context
+    if not (context.ready or is_allowed(context, glColorMaterial, face, mode)):
+        return
+    if not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
         return
     if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
         lighting = context.groups["lighting"].fields

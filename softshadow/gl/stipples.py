@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from softshadow.context import current
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.context import current, thread
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.pixel_memory import source
 from softshadow.pixel_store import bitmap_rows
@@ -16,12 +16,12 @@ SIDE = 32  # rows and columns of a polygon stipple
 LARGEST_FACTOR = 256
 
 
-@in_lists
 def glLineStipple(factor: int, pattern: int) -> None:
     """Set the pattern of stippled lines: 16 bits, the lowest one first; each stands for `factor` pixels, 1 to 256."""
-    context = outside_begin("glLineStipple")
-    if context is not None:
-        context.change("lines", factor=max(1, min(int(factor), LARGEST_FACTOR)), pattern=int(pattern) & 0xFFFF)
+    context = thread.context
+    if context.ready or is_allowed(context, glLineStipple, factor, pattern):
+        fields = {"factor": max(1, min(int(factor), LARGEST_FACTOR)), "pattern": int(pattern) & 0xFFFF}
+        context.change_fields("lines", fields)
 
 
 def glPolygonStipple(mask: Any) -> None:

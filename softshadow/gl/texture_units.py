@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context
+from softshadow.context import Context, thread
 from softshadow.context.state_groups import UNITS
 from softshadow.frozen import evolve
-from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import NUMBERS, enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
@@ -34,10 +34,10 @@ GEN_MODES = {  # mode: the coordinates that can be generated this way
 PLANES = {gl.GL_OBJECT_PLANE: "object_plane", gl.GL_EYE_PLANE: "eye_plane"}
 
 
-@in_lists
 def glActiveTexture(texture: int) -> None:
     """Select the unit that texture calls and the texture matrix stack apply to."""
-    if (context := outside_begin("glActiveTexture")) is None:
+    context = thread.context
+    if not (context.ready or is_allowed(context, glActiveTexture, texture)):
         return None
     unit = int(texture) - gl.GL_TEXTURE0
     if not 0 <= unit < TEXTURE_UNITS:

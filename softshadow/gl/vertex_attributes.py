@@ -9,6 +9,7 @@ from typing import Any
 from softshadow.context import current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.conversions import (
+    OF_UNSIGNED_BYTES,
     from_byte,
     from_int,
     from_short,
@@ -141,11 +142,40 @@ def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ..
 
 
 glColor3b, glColor4b, glColor3bv, glColor4bv = _calls_for(from_byte)
-glColor3ub, glColor4ub, glColor3ubv, glColor4ubv = _calls_for(from_unsigned_byte)
+_, _, glColor3ubv, glColor4ubv = _calls_for(from_unsigned_byte)
 glColor3s, glColor4s, glColor3sv, glColor4sv = _calls_for(from_short)
 glColor3us, glColor4us, glColor3usv, glColor4usv = _calls_for(from_unsigned_short)
 glColor3i, glColor4i, glColor3iv, glColor4iv = _calls_for(from_int)
 glColor3ui, glColor4ui, glColor3uiv, glColor4uiv = _calls_for(from_unsigned_int)
+
+
+def glColor4ub(red: int, green: int, blue: int, alpha: int) -> None:
+    """Set the current colour from bytes that represent 0 to 1."""
+    context = thread.context
+    try:
+        if not (type(red) is int and type(green) is int and type(blue) is int and type(alpha) is int):
+            hypot(red, green, blue, alpha)  # the quickest question whether these are numbers
+            red, green, blue, alpha = int(red), int(green), int(blue), int(alpha)
+        value = OF_UNSIGNED_BYTES
+        color = value[red & 255], value[green & 255], value[blue & 255], value[alpha & 255]
+        primitive = context.primitive
+        if primitive is not None and primitive.steady.get("color") == 4:
+            context.current.color = color
+            primitive.changes["color"].append((len(primitive.positions), color))
+        elif context.compiled_list is None:
+            set_color(*color)
+        else:
+            record(context, glColor4f, *color)
+    except CONVERTING as error:
+        raise refusal(glColor4ub, error, red, green, blue, alpha) from error
+
+
+def glColor3ub(red: int, green: int, blue: int) -> None:
+    """Set the current colour from bytes that represent 0 to 1, alpha 1."""
+    try:
+        glColor4ub(red, green, blue, 255)
+    except CONVERTING as error:
+        raise refusal(glColor3ub, error, red, green, blue) from error
 
 
 # -- normal ------------------------------------------------------------------------------------------------------------
