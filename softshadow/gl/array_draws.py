@@ -16,7 +16,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
 from softshadow.context.arrays import EDGE, FOG_COORDINATE, POSITION, SECONDARY, SLOT_NAMES
 from softshadow.gl.array_elements import glArrayElement
-from softshadow.gl.array_snapshots import slice_of, snapshot_rows
+from softshadow.gl.array_snapshots import origins, slice_of, snapshot_rows
 from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
@@ -222,7 +222,10 @@ def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:
 
 
 def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None:
-    """Return the rows [first, end) of the enabled arrays; None without any or without an array of positions.
+    """Return the rows [first, end) of the enabled arrays; None without any.
+
+    Without an array of positions, all vertices are at the origin, as on Mesa. (In the specification there are none,
+    which is what Mesa's display lists do.)
 
     Raises
     ------
@@ -232,7 +235,8 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
     if first < 0:
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
     active = arrays_in_use(context)
-    if not active or active[0].slot != POSITION:
+    has_positions = bool(active) and active[0].slot == POSITION
+    if not has_positions and context.compiled_list is not None:
         return None
     for array in active:
         if len(array.rows) < end:
@@ -240,7 +244,8 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
             raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
-    return [snapshot_rows(array, first, end, context) for array in active], first, end
+    snapshots = [snapshot_rows(array, first, end, context) for array in active]
+    return (snapshots if has_positions else [origins(first, end, context), *snapshots]), first, end
 
 
 def _vertices(context: Context, rows: Rows) -> Vertices:

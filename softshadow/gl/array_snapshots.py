@@ -16,6 +16,7 @@ from softshadow.context.arrays import (
     EDGE,
     FOG_COORDINATE,
     NORMAL,
+    POSITION,
     SECONDARY,
     ArrayLayout,
     RowSnapshot,
@@ -72,6 +73,14 @@ def snapshot_rows(array: VertexArray, first: int, end: int, context: Context) ->
         first, end = _grown(kept, first, end, len(array.rows))
     array.snapshot = _fixed(array, context) if array.is_fixed else _copied(array, first, end, context)
     return array.snapshot
+
+
+def origins(first: int, end: int, context: Context) -> RowSnapshot:
+    """Return the positions of vertices [first, end) that have none in an array."""
+    rows = np.zeros((end - first, 4), context.real)
+    rows[:, 3] = 1
+    rows.setflags(write=False)
+    return RowSnapshot(POSITION, first, end, rows)
 
 
 def _grown(kept: RowSnapshot, first: int, end: int, length: int) -> tuple[int, int]:

@@ -181,12 +181,57 @@ def test_array_that_is_too_short_is_not_read_past_its_end():
             gl.glDrawArrays(gl.GL_TRIANGLES, 0, 12)
 
 
-def test_without_positions_nothing_is_drawn():
+def test_a_pair_without_vertices_draws_nothing():
     with gl.create_context(*SIZE) as context:
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
         gl.glBegin(gl.GL_QUADS)
         gl.glEnd()
         assert context.frame.commands == []
+
+
+def ranges(namespace: Any) -> None:
+    starts, counts = np.array([0, 2], np.int32), np.array([2, 3], np.int32)
+    namespace.glMultiDrawArrays(namespace.GL_POINTS, starts, counts, 2)
+
+
+def by_indices(namespace: Any) -> None:
+    indices = np.array([3, 0, 1], np.uint32)
+    namespace.glDrawElements(namespace.GL_POINTS, 3, namespace.GL_UNSIGNED_INT, indices)
+
+
+def one_element(namespace: Any) -> None:
+    namespace.glBegin(namespace.GL_POINTS)
+    namespace.glArrayElement(1)
+    namespace.glEnd()
+
+
+DRAWN_AT_THE_ORIGIN = [lambda namespace: namespace.glDrawArrays(namespace.GL_POINTS, 2, 6), ranges, by_indices]
+
+
+@pytest.mark.mesa
+@pytest.mark.parametrize("list_mode", ["", "GL_COMPILE", "GL_COMPILE_AND_EXECUTE"])
+@pytest.mark.parametrize("has_colors", [False, True])
+@pytest.mark.parametrize("draw", [*DRAWN_AT_THE_ORIGIN, one_element])
+def test_without_positions_vertices_are_at_the_origin_but_in_lists(draw, has_colors, list_mode):
+    def program(namespace: Any) -> Any:
+        namespace.glTranslatef(0.3, 0.2, 0.1)
+        namespace.glBlendFunc(namespace.GL_ONE, namespace.GL_ONE)
+        namespace.glEnable(namespace.GL_BLEND)
+        namespace.glPointSize(5)
+        if has_colors:
+            pointers(namespace, *vertices(1))
+            namespace.glDisableClientState(namespace.GL_VERTEX_ARRAY)
+        if list_mode:
+            namespace.glNewList(1, getattr(namespace, list_mode))
+        draw(namespace)
+        if list_mode:
+            namespace.glEndList()
+            namespace.glCallList(1)
+        return [namespace.glReadPixels(0, 0, *SIZE, namespace.GL_RGB, namespace.GL_FLOAT)]
+
+    (colors,) = run_here(program, SIZE).returned
+    assert (colors.max() > 0) == (not list_mode and draw is not one_element)
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
 
 
 @settings(max_examples=30)
