@@ -34,6 +34,7 @@ INDEX_TYPES = (gl.GL_UNSIGNED_BYTE, gl.GL_UNSIGNED_SHORT, gl.GL_UNSIGNED_INT)
 AN_INDEX_TYPE = "GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_UNSIGNED_INT"
 OPTIONAL = {EDGE: "edges", SECONDARY: "secondary", FOG_COORDINATE: "fog_coordinates"}  # fields of `Vertices`
 MOST_UNUSED = 2  # vertices between those of primitives that are drawn at once, for each index
+MOST_WITHOUT_ARRAYS = 1 << 20  # vertices that are all the same
 MOST_DRAWN = 4096  # ranges of one array with the vertices that were drawn
 
 
@@ -230,7 +231,8 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
     Raises
     ------
     ValueError
-        An enabled array ends before `end`: GL would read memory outside the array.
+        An enabled array ends before `end`: GL would read memory outside the array. Or there is none, and more vertices
+        at the origin than are worth their memory.
     """
     if first < 0:
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
@@ -244,6 +246,11 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
             raise ValueError(f"{operation}: vertex {end - 1} is outside the array of {name}s, which has {n_rows}")
     if end <= first:
         return None
+    if not active and end - first > MOST_WITHOUT_ARRAYS:
+        raise ValueError(
+            f"{operation}: {end - first} vertices, but no array is enabled (glEnableClientState): expected at most "
+            f"{MOST_WITHOUT_ARRAYS}"
+        )
     snapshots = [snapshot_rows(array, first, end, context) for array in active]
     return (snapshots if has_positions else [origins(first, end, context), *snapshots]), first, end
 

@@ -234,6 +234,11 @@ def test_without_positions_vertices_are_at_the_origin_but_in_lists(draw, has_col
     assert comparison, str(comparison)
 
 
+def test_a_billion_vertices_without_arrays_are_refused():
+    with gl.create_context(*SIZE), pytest.raises(ValueError, match=r"no array is enabled .*: expected at most 1048576"):
+        gl.glDrawArrays(gl.GL_POINTS, 0, 2**30)
+
+
 @settings(max_examples=30)
 @given(st.lists(st.sampled_from(["f", "d", "i", "s"]), min_size=3, max_size=3), st.integers(2, 4))
 def test_variants_of_a_vertex_are_the_same_vertex(kinds, size):
