@@ -143,7 +143,7 @@ def _named_rows(context: Context, operation: str, snapshot: IndexSnapshot) -> Ro
         if snapshot.lowest < 0:
             raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
         rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
-        if rows is not None:
+        if rows is not None and arrays and arrays[0].slot == POSITION:  # other rows also depend on what is enabled
             snapshot.keep(arrays, rows)
     return rows
 
@@ -225,8 +225,8 @@ def _draw_rows(mode: int, rows: Rows, indices: np.ndarray) -> None:
 def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None:
     """Return the rows [first, end) of the enabled arrays; None without any.
 
-    Without an array of positions, all vertices are at the origin, as on Mesa. (In the specification there are none,
-    which is what Mesa's display lists do.)
+    If the array of positions is not enabled, all vertices are at the origin, as on Mesa. (In the specification there
+    are none, which is what Mesa's display lists do.) If it is enabled but was never set, there are none.
 
     Raises
     ------
@@ -238,7 +238,7 @@ def _rows(context: Context, operation: str, first: int, end: int) -> Rows | None
         raise ValueError(f"{operation}: first={first}: expected 0 or more")
     active = arrays_in_use(context)
     has_positions = bool(active) and active[0].slot == POSITION
-    if not has_positions and context.compiled_list is not None:
+    if not has_positions and ("position" in context.arrays.enabled or context.compiled_list is not None):
         return None
     for array in active:
         if len(array.rows) < end:

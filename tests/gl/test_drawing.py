@@ -234,6 +234,57 @@ def test_without_positions_vertices_are_at_the_origin_but_in_lists(draw, has_col
     assert comparison, str(comparison)
 
 
+@pytest.mark.mesa
+def test_an_array_of_positions_that_was_never_set_draws_nothing():
+    def program(namespace: Any) -> Any:
+        answers = []
+        for call in (namespace.glDisableClientState, namespace.glEnableClientState):
+            call(namespace.GL_VERTEX_ARRAY)
+            for draw in DRAWN_AT_THE_ORIGIN:
+                namespace.glClear(namespace.GL_COLOR_BUFFER_BIT)
+                draw(namespace)
+                answers.append(namespace.glReadPixels(0, 0, *SIZE, namespace.GL_RGB, namespace.GL_FLOAT))
+        return answers
+
+    visible = [colors.max() > 0 for colors in run_here(program, SIZE).returned]
+    assert visible == [True] * 3 + [False] * 3
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
+
+
+@pytest.mark.mesa
+def test_draws_without_positions_leave_nothing_behind():
+    indices = np.array([3, 0, 1], np.uint32)
+    indices.setflags(write=False)
+
+    def program(namespace: Any) -> Any:
+        answers = []
+
+        def draw() -> None:
+            namespace.glDrawElements(namespace.GL_POINTS, 3, namespace.GL_UNSIGNED_INT, indices)
+
+        def read() -> None:
+            answers.append(namespace.glReadPixels(0, 0, *SIZE, namespace.GL_RGB, namespace.GL_FLOAT))
+            namespace.glClear(namespace.GL_COLOR_BUFFER_BIT)
+
+        draw()
+        read()
+        namespace.glNewList(1, namespace.GL_COMPILE)
+        draw()
+        namespace.glEndList()
+        namespace.glCallList(1)
+        read()
+        namespace.glEnableClientState(namespace.GL_VERTEX_ARRAY)
+        draw()
+        read()
+        return answers
+
+    visible = [colors.max() > 0 for colors in run_here(program, SIZE).returned]
+    assert visible == [True, False, False]
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)
+
+
 def test_a_billion_vertices_without_arrays_are_refused():
     with gl.create_context(*SIZE), pytest.raises(ValueError, match=r"no array is enabled .*: expected at most 1048576"):
         gl.glDrawArrays(gl.GL_POINTS, 0, 2**30)
