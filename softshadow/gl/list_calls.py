@@ -20,9 +20,10 @@ from softshadow.gl.conversions import (
     vector,
 )
 
-# calls that lists do not record themselves: they make the call for single numbers
+# calls that lists do not record themselves: they make the call for single numbers, or for one more
 MAKE_OTHERS = (
     "glVertex2fv", "glVertex3fv", "glVertex4fv", "glNormal3fv", "glColor3fv", "glColor4fv", "glTexCoord2fv",
+    "glColor3ub",
 )  # fmt: skip
 FLOATS = {float}
 EXACT = 2**53  # integers up to here are exact in float64

@@ -142,7 +142,7 @@ def _calls_for(convert: Callable[[Any], float]) -> tuple[Callable[..., None], ..
 
 
 glColor3b, glColor4b, glColor3bv, glColor4bv = _calls_for(from_byte)
-_, _, glColor3ubv, glColor4ubv = _calls_for(from_unsigned_byte)
+glColor3ubv, glColor4ubv = _calls_for(from_unsigned_byte)[2:]  # the other two, which programs make most, are below
 glColor3s, glColor4s, glColor3sv, glColor4sv = _calls_for(from_short)
 glColor3us, glColor4us, glColor3usv, glColor4usv = _calls_for(from_unsigned_short)
 glColor3i, glColor4i, glColor3iv, glColor4iv = _calls_for(from_int)
@@ -165,7 +165,7 @@ def glColor4ub(red: int, green: int, blue: int, alpha: int) -> None:
         elif context.compiled_list is None:
             set_color(*color)
         else:
-            record(context, glColor4f, *color)
+            record(context, glColor4ub, red, green, blue, alpha)
     except CONVERTING as error:
         raise refusal(glColor4ub, error, red, green, blue, alpha) from error
 
