@@ -108,7 +108,7 @@ class ChangingState:
         if not self.ready and self._would_redraw((group,), fields):
             self.separate()
         changed = self.groups[group]
-        if changed.is_lighting and any(changed.fields[name] != value for name, value in fields.items()):
+        if changed.is_lighting and not fields.items() <= changed.fields.items():
             self.mark_materials()
         changed.fields.update(fields)
         self.changed.add(changed)

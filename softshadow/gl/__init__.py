@@ -89,7 +89,7 @@ FREQUENT = (
     "glTexCoord2f", "glTexCoord2fv", "glArrayElement", "glEnable", "glDisable", "glMatrixMode", "glPushMatrix",
     "glPopMatrix", "glLoadIdentity", "glTranslatef", "glScalef", "glRotatef", "glOrtho", "glPushAttrib",
     "glPopAttrib", "glCallList", "glGetError", "glStencilFunc", "glTexParameteri", "glPolygonOffset", "glLineWidth",
-    "glDepthRange", "glShadeModel", "glFogf",
+    "glDepthRange", "glShadeModel", "glFogf", "glTexGeni",
 )  # fmt: skip
 globals().update(all_naming_arguments(globals(), FREQUENT))
 

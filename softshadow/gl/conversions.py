@@ -6,6 +6,7 @@ References: GL 2.1, table 2.9; operations and roundings in the order of Mesa's m
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Callable, Sequence
 from ctypes import c_int, c_short, c_uint, c_ushort
 from typing import Any
@@ -14,6 +15,10 @@ import numpy as np
 
 SMALLEST_INT, LARGEST_INT = -(2**31), 2**31 - 1
 ONE, TWO = np.float32(1), np.float32(2)
+# functions that pack and unpack so many numbers in single precision; too large ones become infinite
+SINGLES = tuple((each.pack, each.unpack) for each in (struct.Struct(f"{count}f") for count in range(5)))
+PACK_SINGLE, UNPACK_SINGLE = SINGLES[1]
+PACK_PAIR, UNPACK_PAIR = SINGLES[2]
 BYTE_STEP, SHORT_STEP = ONE / np.float32(255), ONE / np.float32(65535)
 INT_STEP, UNSIGNED_INT_STEP = 1 / 4294967294.0, 1 / 4294967295.0
 # what bytes represent, by their bits
@@ -21,6 +26,18 @@ OF_UNSIGNED_BYTES: list[float] = (np.arange(256, dtype=np.float32) / np.float32(
 OF_BYTES: list[float] = (
     (TWO * np.arange(256, dtype=np.uint8).view(np.int8).astype(np.float32) + ONE) * BYTE_STEP
 ).tolist()
+
+
+def single(value: float) -> float:
+    """Return a number rounded to single precision."""
+    number: float = UNPACK_SINGLE(PACK_SINGLE(value))[0]
+    return number
+
+
+def singles(values: Sequence[float]) -> Any:
+    """Return up to four numbers rounded to single precision."""
+    pack, unpack = SINGLES[len(values)]
+    return unpack(pack(*values))
 
 
 def from_byte(b: int) -> float:

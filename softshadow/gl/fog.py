@@ -42,6 +42,8 @@ def glFogf(pname: int, param: float) -> None:
             return
         if pname in NUMBERS and type(param) in PLAIN and param >= 0:
             context.change_field("fog", NUMBERS[pname], rounded_number(context, param))
+        elif pname == gl.GL_FOG_MODE and type(param) in PLAIN and param in MODES:
+            context.change_field("fog", "mode", int(param))
         elif pname in SINGLE:
             _set("glFogf", pname, param, float)
         else:

@@ -15,7 +15,15 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, thread
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
-from softshadow.gl.conversions import LARGEST_INT, SMALLEST_INT
+from softshadow.gl.conversions import (
+    LARGEST_INT,
+    PACK_PAIR,
+    PACK_SINGLE,
+    SINGLES,
+    SMALLEST_INT,
+    UNPACK_PAIR,
+    UNPACK_SINGLE,
+)
 from softshadow.gl.errors import is_one_of, outside_begin
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.state import STENCIL_OPS, Stencil
@@ -42,10 +50,6 @@ UNSIGNED = 0xFFFFFFFF  # masks are unsigned: -1 sets all bits
 MASKS = {mask: mask for mask in product((False, True), repeat=4)}  # so that equal masks are the same object
 LOGIC_OPS = range(gl.GL_CLEAR, gl.GL_SET + 1)
 F32 = np.float32
-# functions that pack and unpack so many numbers in single precision
-SINGLES = tuple((single.pack, single.unpack) for single in (struct.Struct(f"{count}f") for count in range(5)))
-PACK_SINGLE, UNPACK_SINGLE = SINGLES[1]
-PACK_PAIR, UNPACK_PAIR = SINGLES[2]
 
 
 def clamp01(value: float) -> float:
@@ -195,7 +199,14 @@ def glStencilMask(mask: int) -> None:
     """Set the stencil write mask of both facings."""
     context = thread.context
     if context.ready or is_allowed(context, glStencilMask, mask):
-        context.change_groups(_active_faces(context), {"write_mask": int(mask) & UNSIGNED})
+        faces, value = _active_faces(context), int(mask) & UNSIGNED
+        if not context.ready:
+            context.change_groups(faces, {"write_mask": value})
+            return
+        for name in faces:  # the same in two thirds of the time
+            face = context.groups[name]
+            face.fields["write_mask"] = value
+            context.changed.add(face)
 
 
 def glStencilMaskSeparate(face: int, mask: int) -> None:

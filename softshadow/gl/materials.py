@@ -129,15 +129,15 @@ def glColorMaterial(face: int, mode: int) -> None:
     context = thread.context
     if not (context.ready or is_allowed(context, glColorMaterial, face, mode)):
         return
-    if not is_one_of("glColorMaterial", "face", face, FACES, A_FACE):
+    if not (face in SIDES or is_one_of("glColorMaterial", "face", face, FACES, A_FACE)):
         return
-    if is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
+    if mode in FIELDS or is_one_of("glColorMaterial", "mode", mode, FIELDS, A_COLOR):
         lighting = context.groups["lighting"].fields
-        if (face, mode) == (lighting["color_material_face"], lighting["color_material_mode"]):
+        if face == lighting["color_material_face"] and mode == lighting["color_material_mode"]:
             return
         if not context.pending.has_vertices:
             context.stop_following()  # a colour that is not yet current sets the materials of the new mode only
-        context.change("lighting", color_material_face=int(face), color_material_mode=int(mode))
+        context.change_fields("lighting", {"color_material_face": int(face), "color_material_mode": int(mode)})
         start_to_follow(context)
 
 

@@ -16,6 +16,7 @@ from softshadow import tokens as gl
 from softshadow.color_values import color_as_float, to_float, to_unorm8
 from softshadow.context import Context, current
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import singles
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
@@ -53,7 +54,7 @@ COPIED = {  # type of glCopyPixels: format of its pixels
 @in_lists
 def glPixelZoom(xfactor: float, yfactor: float) -> None:
     """Set how many pixels wide and high each pixel of glDrawPixels and glCopyPixels is; negative factors mirror."""
-    context, zoom = outside_begin("glPixelZoom"), (float(np.float32(xfactor)), float(np.float32(yfactor)))
+    context, zoom = outside_begin("glPixelZoom"), singles((xfactor, yfactor))
     if context is not None and context.pixel_zoom != zoom:
         context.flush_vertices()
         context.touched |= gl.GL_PIXEL_MODE_BIT

@@ -14,6 +14,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import single
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.pixel_memory import destination, source
 from softshadow.pixel_transfer import INDEX_MAPS, INTEGER_MAPS, LARGEST_MAP, MAPS
@@ -39,39 +40,37 @@ INTEGERS = {gl.GL_INDEX_SHIFT: "index_shift", gl.GL_INDEX_OFFSET: "index_offset"
 @in_lists
 def glPixelTransferf(pname: int, param: float) -> None:
     """Set a scale, a bias, a switch for the pixel maps, or the shift or offset of indices."""
-    _transfer("glPixelTransferf", pname, float(np.float32(param)))
+    _transfer("glPixelTransferf", pname, single(param))
 
 
 @in_lists
 def glPixelTransferi(pname: int, param: int) -> None:
     """Set a scale, a bias, a switch for the pixel maps, or the shift or offset of indices."""
-    _transfer("glPixelTransferi", pname, float(np.float32(param)))
+    _transfer("glPixelTransferi", pname, single(param))
 
 
 def _transfer(operation: str, pname: int, value: float) -> None:
     if (context := outside_begin(operation)) is None:
         return
     before = context.pixel_transfer
-    changed: dict[str, Any]
+    changed: Any
     if pname in OF_COLORS:
         channel, part = OF_COLORS[pname]
-        scales = list(before.scales)
-        scales[channel] = _with(scales[channel], part, value)
-        changed = {"scales": tuple(scales)}
+        field, scales = "scales", before.scales
+        changed = (*scales[:channel], _with(scales[channel], part, value), *scales[channel + 1 :])
     elif pname in OF_DEPTH:
-        changed = {"depth": _with(before.depth, OF_DEPTH[pname], value)}
+        field, changed = "depth", _with(before.depth, OF_DEPTH[pname], value)
     elif pname in SWITCHES:
-        changed = {SWITCHES[pname]: value != 0}
+        field, changed = SWITCHES[pname], value != 0
     elif pname in INTEGERS:
-        changed = {INTEGERS[pname]: int(np.clip(np.nan_to_num(value), -(2**31), 2**31 - 1))}
+        field, changed = INTEGERS[pname], int(np.clip(np.nan_to_num(value), -(2**31), 2**31 - 1))
     else:
         fail(gl.GL_INVALID_ENUM, operation, f"pname={token_name(pname)}: expected a parameter of pixel transfer")
         return
-    after = evolve(before, **changed)
-    if after != before:
+    if getattr(before, field) != changed:
         context.flush_vertices()
         context.touched |= gl.GL_PIXEL_MODE_BIT
-        context.pixel_transfer = after
+        context.pixel_transfer = evolve(before, **{field: changed})
 
 
 def _with(pair: tuple[float, float], part: int, value: float) -> tuple[float, float]:

@@ -49,13 +49,11 @@ def glPixelStorei(pname: int, param: int) -> None:
     direction, field = STORES[pname]
     if field == "alignment" and param not in (1, 2, 4, 8):
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 1, 2, 4 or 8")
-    if field in SWITCHES:
-        param = bool(param)
-    if param < 0:
+    if param < 0 and field not in SWITCHES:
         return fail(gl.GL_INVALID_VALUE, "glPixelStorei", f"{token_name(pname)}={param}: expected 0 or more")
-    setattr(
-        context, direction, evolve(getattr(context, direction), **{field: param if field in SWITCHES else int(param)})
-    )
+    value, store = bool(param) if field in SWITCHES else int(param), getattr(context, direction)
+    if getattr(store, field) != value:
+        setattr(context, direction, evolve(store, **{field: value}))
     return None
 
 

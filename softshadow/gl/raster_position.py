@@ -5,7 +5,6 @@ References: GL 2.1, sec. 2.13 (current raster position); rastpos.c of Mesa 22.3.
 
 from __future__ import annotations
 
-from array import array
 from functools import lru_cache
 from operator import is_
 from typing import Any
@@ -15,7 +14,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition
 from softshadow.gl.calls import in_lists, spelled_like_gl
-from softshadow.gl.conversions import vector
+from softshadow.gl.conversions import single, singles, vector
 from softshadow.gl.errors import outside_begin
 from softshadow.gl.raster_lighting import raster_colors, transformed
 from softshadow.gl.render_modes import note_raster_position
@@ -104,10 +103,16 @@ def _texcoords(context: Context) -> tuple[tuple[float, ...], ...]:
     return known[2]
 
 
-def _current_colors(context: Context) -> list[tuple[float, ...]]:
+def _current_colors(context: Context) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return the current colour and secondary colour in single precision."""
     current = context.current
-    return [tuple(array("f", color)) for color in (current.color, current.secondary)]
+    return singles(current.color), singles(current.secondary)
+
+
+def _clamped(color: tuple[float, ...]) -> tuple[float, ...]:
+    if min(color) >= 0.0 and max(color) <= 1.0:  # in a fifth of the time
+        return color
+    return tuple([min(max(each, 0.0), 1.0) for each in color])
 
 
 @in_lists
@@ -119,14 +124,13 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
     context.separate()
     context.update_current()
     view = context.state.viewport
-    near, far = F32(view.near), F32(view.far)
-    with np.errstate(all="ignore"):
-        depth = min(max(F32(z), F32(0)), F32(1)) * (far - near) + near
-        window = (float(F32(x)), float(F32(y)), float(depth), 1.0)
-    color, secondary = (tuple(min(max(each, 0.0), 1.0) for each in color) for color in _current_colors(context))
-    coordinates = tuple(tuple(each) for each in context.current.texcoords)
+    x, y, z, near = singles((x, y, z, view.near))
+    depths = single(single(view.far) - near)  # each operation on two numbers in single precision is rounded once
+    z = single(single(min(max(z, 0.0), 1.0) * depths) + near)
+    color, secondary = _current_colors(context)
     context.touched |= gl.GL_CURRENT_BIT
-    _set(context, window, 0.0, color, secondary, coordinates)
+    texcoords = tuple(map(tuple, context.current.texcoords))
+    _set(context, (x, y, z, 1.0), 0.0, _clamped(color), _clamped(secondary), texcoords)
 
 
 def glRasterPos2f(x: float, y: float) -> None:

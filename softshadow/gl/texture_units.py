@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from softshadow.frozen import evolve
 from softshadow.gl.calls import in_lists, is_allowed, spelled_like_gl
 from softshadow.gl.conversions import NUMBERS, enum, first, from_int, numbers, vector
 from softshadow.gl.errors import fail, outside_begin
+from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.texture_combiners import COMBINE_PARAMETERS, SCALES, parameter_of, with_parameter
 from softshadow.gl.textures import queried_color, set_unit
 from softshadow.programs.inverse import inverse
@@ -180,22 +182,27 @@ def _answer(values: np.ndarray, params: Any) -> Any:
 
 
 # -- generated coordinates ---------------------------------------------------------------------------------------------
-@in_lists
 def glTexGeni(coord: int, pname: int, param: int) -> None:
     """Set how a coordinate is generated: GL_SPHERE_MAP only s and t, GL_NORMAL_MAP and GL_REFLECTION_MAP not q."""
-    _set_mode("glTexGeni", coord, pname, param)
+    context = thread.context
+    try:
+        hypot(param)  # the quickest question whether this is a number
+        if context.ready or is_allowed(context, glTexGeni, coord, pname, param):
+            _set_mode(context, "glTexGeni", coord, pname, param)
+    except CONVERTING as error:
+        raise refusal(glTexGeni, error, coord, pname, param) from error
 
 
 @in_lists
 def glTexGenf(coord: int, pname: int, param: float) -> None:
     """Set how a coordinate is generated."""
-    _set_mode("glTexGenf", coord, pname, param)
+    _set_mode(outside_begin("glTexGenf"), "glTexGenf", coord, pname, param)
 
 
 @in_lists
 def glTexGend(coord: int, pname: int, param: float) -> None:
     """Set how a coordinate is generated."""
-    _set_mode("glTexGend", coord, pname, param)
+    _set_mode(outside_begin("glTexGend"), "glTexGend", coord, pname, param)
 
 
 @in_lists
@@ -216,12 +223,12 @@ def glTexGeniv(coord: int, pname: int, params: Any) -> None:
     _set_generation("glTexGeniv", coord, pname, params, int)
 
 
-def _set_mode(operation: str, coord: int, pname: int, value: Any) -> None:
-    if (context := outside_begin(operation)) is None:
+def _set_mode(context: Context | None, operation: str, coord: int, pname: int, value: Any) -> None:
+    if context is None:  # between glBegin and glEnd
         return None
     if problem := _generation_problem(coord, pname, is_vector=False):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
-    chosen = enum(value)
+    chosen = value if type(value) is int else enum(value)
     if coord not in GEN_MODES.get(chosen, ()):
         expected = ", ".join(token_name(mode) for mode, coordinates in GEN_MODES.items() if coord in coordinates)
         return fail(
@@ -239,7 +246,7 @@ def _set_generation(
     if (context := outside_begin(operation)) is None:
         return None
     if pname == gl.GL_TEXTURE_GEN_MODE:
-        return _set_mode(operation, coord, pname, first(params, convert))
+        return _set_mode(context, operation, coord, pname, first(params, convert))
     if problem := _generation_problem(coord, pname, is_vector=True):
         return fail(gl.GL_INVALID_ENUM, operation, problem)
     plane = np.array(vector(params, 4, convert), np.float32)

@@ -270,14 +270,17 @@ def glPushClientAttrib(mask: int) -> None:
     if len(context.client_stack) == DEEPEST_CLIENT_ATTRIBUTES:
         fail(gl.GL_STACK_OVERFLOW, "glPushClientAttrib", f"this stack holds {DEEPEST_CLIENT_ATTRIBUTES} entries")
         return
-    arrays = evolve(
-        context.arrays,
-        enabled=set(context.arrays.enabled),
-        pointers=dict(context.arrays.pointers),
-        layouts=dict(context.arrays.layouts),
-        offsets=dict(context.arrays.offsets),
-    )
-    context.client_stack.append((int(mask), arrays, context.pack_store, context.unpack_store))
+    arrays, mask = context.arrays, int(mask)
+    if mask & gl.GL_CLIENT_VERTEX_ARRAY_BIT:
+        arrays = evolve(
+            arrays,
+            enabled=set(arrays.enabled),
+            pointers=dict(arrays.pointers),
+            layouts=dict(arrays.layouts),
+            offsets=dict(arrays.offsets),
+            active=None,  # buffer objects may change until it is restored
+        )
+    context.client_stack.append((mask, arrays, context.pack_store, context.unpack_store))
 
 
 def glPopClientAttrib() -> None:
@@ -290,7 +293,7 @@ def glPopClientAttrib() -> None:
         return
     mask, arrays, pack_store, unpack_store = context.client_stack.pop()
     if mask & gl.GL_CLIENT_VERTEX_ARRAY_BIT:
-        context.arrays = evolve(arrays, active=None)  # buffer objects may have changed
+        context.arrays = arrays
     if mask & gl.GL_CLIENT_PIXEL_STORE_BIT:
         context.pack_store, context.unpack_store = pack_store, unpack_store
 
