@@ -168,7 +168,7 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
 def shares_vertices(mode: int, count: int) -> bool:
     """Return whether a primitive of so many vertices may name a vertex several times.
 
-    With vertices left over, the range of the indices would decide how quads are cut (`mesa.quad_cuts`).
+    With vertices left over, the range of the indices would decide how quads are cut (`mesa.segments`).
     """
     return mode in CORNERS and count % CORNERS[mode] == 0
 

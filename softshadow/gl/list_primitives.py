@@ -27,7 +27,7 @@ from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, pairs_mode_of, separate_indices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
-from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT
+from softshadow.pipeline.mesa.segments import INDEXED_SEGMENT
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with

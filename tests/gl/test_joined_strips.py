@@ -29,7 +29,7 @@ from softshadow.pipeline.fast.batch.vertices import (
 )
 from softshadow.pipeline.geometry.assembly import assemble, order_of_joined_strips
 from softshadow.pipeline.geometry.separate import STRIPS, separate_indices
-from softshadow.pipeline.mesa.quad_cuts import SEGMENT, in_clipped_segment
+from softshadow.pipeline.mesa.segments import SEGMENT, in_clipped_segment
 
 MODES = tuple(sorted(STRIPS))
 SWITCHES = (

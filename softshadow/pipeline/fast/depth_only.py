@@ -20,9 +20,9 @@ from softshadow.pipeline.fast.any_state import KERNELS, fill_scratch
 from softshadow.pipeline.fast.fragment_numbers import numbers_of
 from softshadow.pipeline.fast.geometry_cache import is_covered, recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
-from softshadow.pipeline.geometry.clip import CUT, INSIDE, OUTSIDE, clip_triangles, write_sides
-from softshadow.pipeline.geometry.draw_primitives import triangles_of
-from softshadow.pipeline.geometry.facing import CULL_NONE, facing_and_area, vertices_of
+from softshadow.pipeline.geometry.clip import CUT, INSIDE, NO_STAGES, OUTSIDE, clip_triangles, write_sides
+from softshadow.pipeline.geometry.draw_primitives import triangles_in_stages, triangles_of
+from softshadow.pipeline.geometry.facing import CULL_NONE, facing_and_area, leave_out_culled, vertices_of
 from softshadow.pipeline.geometry.geometry import (
     Positions,
     filled_offset,
@@ -72,7 +72,7 @@ class ClippedTriangles(NamedTuple):
 
     triangles (T, 3) int32; sides (T,) uint8: INSIDE, OUTSIDE or CUT, empty where all are inside; cut (K,): the numbers
     of those that are cut; pieces (P, 3) int32: what is left of these, of the k-th
-    ``pieces[starts[k] : starts[k + 1]]``.
+    ``pieces[starts[k] : starts[k + 1]]``; in_stages (T,) uint8: which pass Mesa's cull stage, empty for none.
     """
 
     triangles: np.ndarray
@@ -80,19 +80,29 @@ class ClippedTriangles(NamedTuple):
     cut: np.ndarray
     pieces: np.ndarray
     starts: np.ndarray
+    in_stages: np.ndarray = NO_STAGES
 
     def most(self, first: int, end: int) -> int:
         """Return an upper bound on how many triangles clipping leaves of [first, end)."""
         first_cut, end_cut = np.searchsorted(self.cut, (first, end))
         return int(end - first + self.starts[end_cut] - self.starts[first_cut])
 
-    def visible(self, first: int, end: int) -> np.ndarray:
-        """Return the triangles of [first, end) that are inside and the pieces of the others, in drawing order."""
-        if not self.sides[first:end].any():
-            return self.triangles[first:end]
-        visible = np.empty((self.most(first, end), 3), np.int32)
-        count = write_visible(*self, first, end, np.searchsorted(self.cut, first), visible)
-        return read_only(visible[:count])
+    def visible(self, first: int, end: int, window: np.ndarray, culled: int, positive_is_front: int) -> np.ndarray:
+        """Return the triangles of [first, end) that are inside and the pieces of the others, in drawing order.
+
+        Those that the cull stage leaves out have no area: see `facing.leave_out_culled`.
+        """
+        visible, in_stages = self.triangles[first:end], self.in_stages[first:end]
+        if self.sides[first:end].any():
+            most = self.most(first, end)
+            visible, of_visible = np.empty((most, 3), np.int32), np.empty(most if len(in_stages) else 0, np.uint8)
+            count = write_visible(*self, first, end, np.searchsorted(self.cut, first), visible, of_visible)
+            visible, in_stages = visible[:count], of_visible[:count]
+        elif culled and in_stages.any():
+            visible = visible.copy()
+        if culled and in_stages.any():
+            leave_out_culled(window, visible, in_stages, culled, positive_is_front)
+        return read_only(visible)
 
 
 class WindowMesh(NamedTuple):
@@ -172,7 +182,7 @@ def fill_in_blocks(
     Several threads (see `threads_of_blocks`) share them: the first part goes to `depth`, any other one to a buffer of
     its own.
     """
-    visible = read_only(mesh.clipped.visible(0, len(mesh.clipped.triangles)))
+    visible = mesh.clipped.visible(0, len(mesh.clipped.triangles), mesh.window, *mesh.facing)
     numbers, rows = numbers_of(front, back), slice(mesh.region.first_row, mesh.region.end_row)
     ends = [len(visible) * n // n_threads for n in range(n_threads + 1)]
 
@@ -238,7 +248,8 @@ def chunks_of(mesh: WindowMesh) -> Iterator[Chunk]:
         setup = empty_setup(places[-1], window.dtype)
 
         def set_up_part(n: int, setup: Setup = setup, parts: list = parts, places: list = places) -> tuple[int, int]:
-            visible = clipped.visible(*parts[n])
+            first, last = parts[n]
+            visible = clipped.visible(first, last, window, *facing)
             end, covered = set_up_triangles(
                 window, snapped, visible, 0, len(visible), *facing, offset, places[n], *setup
             )
@@ -254,7 +265,8 @@ def chunks_of(mesh: WindowMesh) -> Iterator[Chunk]:
 def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[np.ndarray, ClippedTriangles]:
     """Return the vertices in the window, new ones of clipping last, and the clipped triangles."""
     clip, codes, window, planes = positions
-    triangles = read_only(triangles_of(command, target, codes, planes, across=False).corners)
+    triangles = triangles_of(command, target, codes, planes, across=False).corners
+    in_stages, triangles = triangles_in_stages(command, codes, planes, triangles), read_only(triangles)
     none = np.empty(0, np.int64)
     if not codes.any():
         return window, ClippedTriangles(triangles, np.empty(0, np.uint8), none, triangles[:0], np.zeros(1, np.int64))
@@ -267,14 +279,18 @@ def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[
     starts = np.searchsorted(clipped.source, np.arange(len(cut) + 1))
     pieces = clipped.triangles + np.int32(len(window))
     window = append_rows(window, to_window(clipped.clip, *window_transform(command, target)))
-    return window, ClippedTriangles(triangles, sides, cut, pieces, starts)
+    return window, ClippedTriangles(triangles, sides, cut, pieces, starts, in_stages)
 
 
 @kernel
-def write_visible(triangles, sides, cut, pieces, starts, first, end, k, visible):
-    """Write `ClippedTriangles.visible`, return its length; `k`: where in `cut` the first cut triangle stands."""
+def write_visible(triangles, sides, cut, pieces, starts, in_stages, first, end, k, visible, of_visible):
+    """Write the triangles of `ClippedTriangles.visible`, and which pass the cull stage unless none does.
+
+    Return their number; `k`: where in `cut` the first cut triangle stands.
+    """
     count = 0
     for t in range(first, end):
+        before = count
         if sides[t] == INSIDE:
             for i in range(3):
                 visible[count, i] = triangles[t, i]
@@ -285,4 +301,7 @@ def write_visible(triangles, sides, cut, pieces, starts, first, end, k, visible)
                     visible[count, i] = pieces[p, i]
                 count += 1
             k += 1
+        if of_visible.shape[0]:
+            for row in range(before, count):
+                of_visible[row] = in_stages[t]
     return count

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.pipeline.mesa.quad_cuts import QUADS_OF_SEGMENT, quads_and_stride
+from softshadow.pipeline.mesa.segments import QUADS_OF_SEGMENT, quads_and_stride
 
 
 class Triangles(NamedTuple):

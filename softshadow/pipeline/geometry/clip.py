@@ -19,6 +19,7 @@ NEAR_FAR = 0b110000
 FRUSTUM_PLANES = len(FRUSTUM)
 INSIDE, CUT, OUTSIDE = 0, 1, 2  # sides of triangles
 NO_EDGES = np.empty((0, 3), np.uint8)
+NO_STAGES = np.empty(0, np.uint8)
 ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 
 
@@ -27,7 +28,8 @@ class Clipped(NamedTuple):
 
     clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32, lines
     (T', 2), points (T', 1); source (T',) int32: which input primitive each is a piece of; edges (T', 3) uint8: which
-    edges of triangles, from corner i to corner i + 1, are edges of the drawn primitives.
+    edges of triangles, from corner i to corner i + 1, are edges of the drawn primitives; in_stages (T',) uint8: which
+    triangles pass Mesa's cull stage, empty for none (`facing.leave_out_culled`).
     """
 
     clip: np.ndarray
@@ -35,6 +37,11 @@ class Clipped(NamedTuple):
     triangles: np.ndarray
     source: np.ndarray
     edges: np.ndarray = NO_EDGES
+    in_stages: np.ndarray = NO_STAGES
+
+    def passing_stages(self, in_stages: np.ndarray) -> "Clipped":
+        """Return the same pieces, those of input primitives that pass the cull stage marked; none in an empty array."""
+        return self._replace(in_stages=in_stages[self.source] if len(in_stages) else NO_STAGES)
 
 
 def clip_triangles(

@@ -17,13 +17,13 @@ from softshadow.pipeline.geometry.assembly import (
     separate_triangles,
     through_indices,
 )
-from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.clip import NO_STAGES, outcodes
 from softshadow.pipeline.geometry.lines import LINES, assemble_lines
 from softshadow.pipeline.geometry.vertex import to_clip, to_window
 from softshadow.pipeline.mesa.polygon_rules import passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
-from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment, quads_and_stride
 from softshadow.pipeline.mesa.rectangles import LAST_NINE, is_left_out, start_of_last_nine
+from softshadow.pipeline.mesa.segments import in_clipped_segment, quads_and_stride
 
 
 def triangles_of(command: Draw, target: Framebuffer, codes: np.ndarray, planes: np.ndarray, across: bool) -> Triangles:
@@ -51,6 +51,26 @@ def clipping_flags(command: Draw) -> np.ndarray | None:
     flags, polygon = command.vertices.edges, command.state.polygon
     has_modes = polygon.mode_front != gl.GL_FILL or polygon.mode_back != gl.GL_FILL
     return flags if has_modes and flags is not None and flags.strides[0] else None
+
+
+def triangles_in_stages(command: Draw, codes: np.ndarray, planes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return which assembled triangles (T, 3) of filled polygons pass Mesa's stages, (T,) uint8; empty for none.
+
+    Those of the segments in which a vertex needs clipping do (`mesa.segments`).
+    """
+    joined_needs = joined_needs_clipping(command, planes)
+    needs = codes != 0 if joined_needs is None else joined_needs
+    if not needs.any() or not len(corners):
+        return NO_STAGES
+    if command.pairs_mode:  # each strip, fan or polygon is a segment: no other one has its vertices
+        begins = np.append(True, corners.min(axis=1)[1:] > np.maximum.accumulate(corners.max(axis=1))[:-1])
+        pair = np.cumsum(begins) - 1
+        return (np.bincount(pair, needs[corners].any(axis=1)) > 0)[pair].view(np.uint8)
+    clipped = in_clipped_segment(command.mode, needs, command.indices)
+    if command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
+        clipped = np.repeat(clipped, 2)
+    first = 0 if joined_needs is None else len(clipped) * command.joined_start // len(joined_needs)
+    return clipped[first : first + len(corners)].view(np.uint8)
 
 
 def joined_needs_clipping(command: Draw, planes: np.ndarray) -> np.ndarray | None:

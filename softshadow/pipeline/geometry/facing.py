@@ -7,7 +7,7 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import HALF, SUBPIXELS
+from softshadow.pipeline.constants import HALF, SUBPIXELS, ZERO
 from softshadow.state import Cull
 
 CULL_NONE, CULL_FRONT, CULL_BACK = 0, 1, 2
@@ -57,6 +57,24 @@ def facing_and_area(snapped, v0, v1, v2, culled, positive_is_front):
     if culled & (CULL_FRONT if facing else CULL_BACK):
         return -1, area
     return facing, area
+
+
+@kernel
+def leave_out_culled(window, triangles, in_stages, culled, positive_is_front):
+    """Give the triangles that Mesa's cull stage leaves out three equal corners: so they have no area.
+
+    It tells the facing from the unsnapped corners, and counts a triangle without area as a back face
+    (draw_pipe_cull.c). `in_stages` (T,) uint8 says which triangles pass it (`mesa.segments`).
+    """
+    for t in range(triangles.shape[0]):
+        if in_stages[t]:
+            v0, v1, v2 = vertices_of(triangles, t)
+            e_x, e_y = window[v0, 0] - window[v2, 0], window[v0, 1] - window[v2, 1]
+            f_x, f_y = window[v1, 0] - window[v2, 0], window[v1, 1] - window[v2, 1]
+            area = e_x * f_y - e_y * f_x
+            is_front = area != ZERO and (area < ZERO) == (positive_is_front == 1)
+            if culled & (CULL_FRONT if is_front else CULL_BACK):
+                triangles[t, 1], triangles[t, 2] = triangles[t, 0], triangles[t, 0]
 
 
 @kernel

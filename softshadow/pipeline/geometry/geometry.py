@@ -13,7 +13,14 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import begins_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
-from softshadow.pipeline.geometry.draw_primitives import drawn_edges, has_no_edges, lines_or_points_of, triangles_of
+from softshadow.pipeline.geometry.draw_primitives import (
+    drawn_edges,
+    has_no_edges,
+    lines_or_points_of,
+    triangles_in_stages,
+    triangles_of,
+)
+from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT
 from softshadow.pipeline.geometry.line_stipple import places_of
 from softshadow.pipeline.geometry.lines import LINES, clip_lines
 from softshadow.pipeline.geometry.lines_and_points import set_up_lines_of, set_up_points_of
@@ -24,15 +31,17 @@ from softshadow.pipeline.geometry.triangle_setup import (
     NO_TRIANGLES,
     Offset,
     add_float_units,
+    left_by_cull_stage,
     merge_by_id,
     offset_of,
     set_up,
     snapped_vertices,
+    stored_culling,
 )
 from softshadow.pipeline.geometry.vertex import append_rows, process_vertices, to_window
 from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes, order_for_setup, order_pieces
-from softshadow.pipeline.records import Discards, Geometry
+from softshadow.pipeline.records import Discards, Geometry, Setup
 from softshadow.programs import Program, Varyings, VertexInputs
 from softshadow.programs.inverse import inverse
 from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
@@ -103,6 +112,8 @@ def triangles_with_outputs(
         provoking = assembled.provoking
         edges = drawn_edges(command, assembled.corners) if with_stages else NO_EDGES
         clipped = clip_triangles(clip, columns, assembled.corners, codes, planes, edges, command.linear)
+        if state.cull.enabled and not with_stages:
+            clipped = clipped.passing_stages(triangles_in_stages(command, codes, planes, assembled.corners))
         if first_provokes(state):
             clipped = _in_provoking_order(clipped, codes, assembled.corners)
     window = with_new_vertices(window, clipped, command, target)
@@ -188,11 +199,21 @@ def has_float_units(command: Draw, target: Framebuffer) -> bool:
 def filled_geometry(geometry: Geometry, clipped: Clipped, command: Draw, target: Framebuffer, cull: Cull) -> Geometry:
     """Return the geometry with its triangles set up."""
     window = geometry.window
-    corners = _corners_for_setup(window, clipped.triangles, command.state)
+    corners = _corners_for_setup(window, left_by_cull_stage(window, clipped, cull, target.flipped), command.state)
     triangles = set_up(window, corners, cull, filled_offset(command, target), target.flipped)
     if has_float_units(command, target):
         add_float_units(triangles.depth[:, 3], window[triangles.vertices, 2], command.state.polygon.units)
+    if cull is not command.state.cull:
+        _face_as_culled(triangles, clipped, window, command.state.cull, target.flipped)
     return geometry._replace(triangles=triangles)
+
+
+def _face_as_culled(triangles: Setup, clipped: Clipped, window: np.ndarray, cull: Cull, flipped: bool) -> None:
+    """Let those triangles that the cull stage leaves out face as it sees them, where culled ones are shown, too."""
+    left, (culled, _) = left_by_cull_stage(window, clipped, cull, flipped), stored_culling(cull, flipped)
+    if left is not clipped.triangles and culled in (CULL_FRONT, CULL_BACK):
+        left_out = left[:, 0] == left[:, 1]
+        triangles.front[left_out[triangles.ids]] = culled == CULL_FRONT
 
 
 def points_and_lines_geometry(

@@ -7,7 +7,14 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXELS, ZERO
-from softshadow.pipeline.geometry.facing import culling, facing_and_area, snap_vertices, vertices_of
+from softshadow.pipeline.geometry.clip import Clipped
+from softshadow.pipeline.geometry.facing import (
+    culling,
+    facing_and_area,
+    leave_out_culled,
+    snap_vertices,
+    vertices_of,
+)
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import PART_SIZE, parts_of, share
 from softshadow.pipeline.mesa.polygon_rules import offset_is_on
@@ -99,6 +106,16 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
                 array[rows] = array[first:end]
         n_drawn = rows.stop
     return Setup(*(array[:n_drawn] for array in setup))
+
+
+def left_by_cull_stage(window: np.ndarray, clipped: Clipped, cull: Cull, flipped: bool) -> np.ndarray:
+    """Return the triangles (T', 3) of a draw, without an area those that Mesa's cull stage leaves out."""
+    culled, positive_is_front = stored_culling(cull, flipped)
+    if not culled or not len(clipped.in_stages):
+        return clipped.triangles
+    triangles = clipped.triangles.copy()
+    leave_out_culled(window, triangles, clipped.in_stages, culled, positive_is_front)
+    return triangles
 
 
 def stored_culling(cull: Cull, flipped: bool) -> tuple[int, int]:

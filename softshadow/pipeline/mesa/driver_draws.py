@@ -2,7 +2,7 @@
 
 Consecutive pairs of points, lines, triangles or quads with nothing between them are joined to one list of primitives
 (`softshadow.context.joined_pairs`). How llvmpipe cuts a quad into triangles depends on whether any vertex of the joined
-pairs is clipped, so all pairs must be known before the first one is drawn (`softshadow.pipeline.mesa.quad_cuts`). Which
+pairs is clipped, so all pairs must be known before the first one is drawn (`softshadow.pipeline.mesa.segments`). Which
 triangles it draws depends on their number (`softshadow.pipeline.mesa.rectangles`).
 
 Mesa does not join pairs of other modes, but those of one mode in a row are still one draw of the driver (`DriverDraw`),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from softshadow.pipeline.mesa.quad_cuts import SEGMENT
+from softshadow.pipeline.mesa.segments import SEGMENT
 
 TRIANGLE, LAST_NINE = 3, 9  # vertices of one and of three triangles
 WHOLE_TRIANGLES = SEGMENT - SEGMENT % TRIANGLE  # vertices of whole triangles in a segment

@@ -5,7 +5,7 @@ import pytest
 
 from softshadow import tokens as gl
 from softshadow.pipeline.geometry.assembly import assemble
-from softshadow.pipeline.mesa.quad_cuts import in_clipped_segment
+from softshadow.pipeline.mesa.segments import in_clipped_segment
 
 
 @pytest.mark.parametrize(
@@ -43,6 +43,23 @@ def test_segments_end_after_4096_vertices():
     outside[4096] = True
     clipped = in_clipped_segment(gl.GL_QUADS, outside, None)
     assert clipped.tolist() == [False] * 1024 + [True] * 1024
+
+
+@pytest.mark.parametrize(
+    ("mode", "n_vertices", "outside", "clipped"),
+    [
+        (gl.GL_TRIANGLES, 8192, 4096, [False] * 1365 + [True] * 1365),  # 4095 vertices: whole triangles
+        (gl.GL_TRIANGLE_STRIP, 8192, 5000, [False] * 4094 + [True] * 4094 + [False] * 2),
+        (gl.GL_TRIANGLE_STRIP, 8192, 4095, [True] * 8188 + [False] * 2),  # two segments share it
+        (gl.GL_TRIANGLE_FAN, 4096, 4000, [True] * 4094),
+        (gl.GL_TRIANGLE_FAN, 5000, 1025, [False] * 1022 + [True] * 1022 + [False] * 2954),
+        (gl.GL_POLYGON, 5000, 0, [True] * 4998),  # the first vertex is in all
+    ],
+)
+def test_segments_of_triangles(mode, n_vertices, outside, clipped):
+    needs_clipping = np.zeros(n_vertices, bool)
+    needs_clipping[outside] = True
+    assert in_clipped_segment(mode, needs_clipping, None).tolist() == clipped
 
 
 def test_a_short_range_of_indices_includes_vertices_that_no_index_names():

@@ -1,7 +1,7 @@
 """The triangles of many draws; equals `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
 The patterns are those of `geometry.assembly`; how quads are cut depends on the clip codes of their segment
-(`mesa.quad_cuts`).
+(`mesa.segments`).
 """
 
 from softshadow.jit import kernel
@@ -17,7 +17,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     START,
 )
 from softshadow.pipeline.geometry.lines import LINES
-from softshadow.pipeline.mesa.quad_cuts import INDEXED_SEGMENT, QUADS_OF_SEGMENT, SEGMENT
+from softshadow.pipeline.mesa.segments import INDEXED_SEGMENT, QUADS_OF_SEGMENT, SEGMENT
 from softshadow.tokens import (
     GL_LINE_LOOP,
     GL_LINE_STRIP,

@@ -25,7 +25,8 @@ from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, pr
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.assembly import edge_flags, edges_of_joined_polygons
-from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, Clipped, clip_triangles, write_sides
+from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, NO_STAGES, Clipped, clip_triangles, write_sides
+from softshadow.pipeline.geometry.draw_primitives import triangles_in_stages
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
     filled_offset,
@@ -159,6 +160,8 @@ def geometry_of(
     if is_polygons:
         edges = NO_EDGES if is_filled else _drawn_edges(draws)
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
+        if is_filled and (setting.culled or recent):
+            clipped = clipped.passing_stages(_in_stages(draws, codes, run.user_planes, triangles[:n_triangles]))
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
             geometry = _with_values(geometry, clipped.values, outputs)
@@ -215,6 +218,20 @@ def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
     return edges[0] if len(edges) == 1 else np.concatenate(edges)
 
 
+def _in_stages(draws: Sequence[Draw], codes: np.ndarray, user_planes: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return which triangles (T, 3) of all draws pass Mesa's cull stage, (T,) uint8; empty for none."""
+    if not codes.any():
+        return NO_STAGES
+    in_stages, start, first = np.zeros(len(triangles), np.uint8), 0, 0
+    for draw in draws:
+        end = start + len(draw.vertices.position)
+        last = first + primitive_count(draw.mode, _named_vertices(draw))
+        of_draw = triangles_in_stages(draw, codes[start:end], user_planes, triangles[first:last] - start)
+        in_stages[first : first + len(of_draw)] = of_draw
+        start, first = end, last
+    return in_stages
+
+
 def _views_of_new(clipped: Clipped, provoking: np.ndarray, table: Table) -> np.ndarray:
     """Return the row of the viewport of each vertex that clipping has made.
 
@@ -235,7 +252,8 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: 
     window, setup = np.empty_like(clipped.clip), empty_setup(len(clipped.triangles), REAL)
     n_drawn, area = set_up_pieces(
         clipped.clip, geometry.window, views, table.scales, table.shifts, window, np.empty((len(window), 2), np.int32),
-        read_only(clipped.triangles), setting.culled, setting.positive_is_front, setting.offset, *setup,
+        clipped.triangles, read_only(clipped.triangles), clipped.in_stages, setting.culled, setting.positive_is_front,
+        setting.offset, *setup,
     )  # fmt: skip
     return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
 

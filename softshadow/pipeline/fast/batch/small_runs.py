@@ -8,7 +8,7 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.pipeline.fast.batch.assembly import assemble_draws
 from softshadow.pipeline.fast.batch.vertices import prepare_draws, process_vertices
-from softshadow.pipeline.geometry.facing import snap_vertices
+from softshadow.pipeline.geometry.facing import leave_out_culled, snap_vertices
 from softshadow.pipeline.geometry.triangle_setup import set_up_triangles
 from softshadow.pipeline.geometry.vertex import window_position
 
@@ -46,8 +46,8 @@ def set_up_run(
 
 @kernel
 def set_up_pieces(
-    clip, known_window, views, scales, shifts, window, snapped, triangles, culled, positive_is_front, offset, corners,
-    vertices, depth, front, ids,
+    clip, known_window, views, scales, shifts, window, snapped, triangles, triangles_read, in_stages, culled,
+    positive_is_front, offset, corners, vertices, depth, front, ids,
 ):  # fmt: skip
     """Set up the triangles over vertices of which the first ones have known window positions, as `set_up_run` does.
 
@@ -60,8 +60,10 @@ def set_up_pieces(
             window[v, k] = known_window[v, k]
     place_new(clip[n_known:], views, scales, shifts, window[n_known:])
     snap_vertices(window, 0, n, snapped)
+    if culled and in_stages.shape[0]:
+        leave_out_culled(window, triangles, in_stages, culled, positive_is_front)
     n_drawn, area = set_up_triangles(
-        window, snapped, triangles, 0, triangles.shape[0], culled, positive_is_front, offset, 0, corners, vertices,
+        window, snapped, triangles_read, 0, triangles.shape[0], culled, positive_is_front, offset, 0, corners, vertices,
         depth, front, ids,
     )  # fmt: skip
     return np.int64(n_drawn), np.int64(area)
