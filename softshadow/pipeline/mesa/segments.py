@@ -45,11 +45,13 @@ def in_clipped_segment(mode: int, needs_clipping: np.ndarray, indices: np.ndarra
     shared = of_first - stride  # vertices of one segment that the next one has, too
     around_first = mode in AROUND_FIRST
     longest = SEGMENT if indices is None and (n_used <= SEGMENT or not around_first) else INDEXED_SEGMENT
+    if n_used <= longest:
+        return np.full(n_primitives, in_order[:n_used].any())
     step = (longest - shared) // stride * stride
     clipped = np.array([
         in_order[start + around_first : min(start + step + shared, n_used)].any()
-        for start in range(0, max(n_used, 1), step)
+        for start in range(0, n_used, step)
     ])  # fmt: skip
-    if around_first and n_used:
+    if around_first:
         clipped |= in_order[0]
     return clipped[np.arange(n_primitives) * stride // step]
