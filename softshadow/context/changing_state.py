@@ -141,10 +141,6 @@ class ChangingState:
             self.pending.settled = self.state_groups.followed
             self.state_groups.settle()
 
-    def set(self, **groups: Any) -> None:
-        """Replace groups of the state, each by its name."""
-        self.change_state(evolve(self.state, **groups))
-
     def change_state(self, state: State) -> None:
         """Replace the state; if the change affects draws, draw the collected vertices first."""
         if self.has_collected and self.primitive is None and _draw_state(state) != _draw_state(self.state):

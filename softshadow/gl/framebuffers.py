@@ -58,7 +58,8 @@ def glBindFramebuffer(target: int, framebuffer: int) -> None:
     if name not in context.objects.framebuffers:
         reserve(context, "framebuffer", name)
         context.execute(CreateFramebuffer(name))
-    context.set(**dict.fromkeys(BINDINGS[target], name))
+    for field in BINDINGS[target]:
+        context.change_field("", field, name)
     return None
 
 
@@ -69,7 +70,7 @@ def glDeleteFramebuffers(*arguments: Any) -> None:
     names = [name for name in names_argument("glDeleteFramebuffers", arguments) if name > 0]
     for binding in BINDINGS[gl.GL_FRAMEBUFFER]:
         if getattr(context.state, binding) in names:
-            context.set(**{binding: DEFAULT})
+            context.change_field("", binding, DEFAULT)
     existing = tuple(name for name in names if name in context.objects.framebuffers)
     if existing:
         context.execute(DeleteFramebuffers(existing))

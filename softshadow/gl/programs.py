@@ -54,7 +54,7 @@ def glUseProgram(program: int) -> None:
         return None
     if program and program not in context.programs:
         return fail(gl.GL_INVALID_VALUE, "glUseProgram", f"program={program}: {EXPECTED_PROGRAM}")
-    context.set(program=int(program))
+    context.change_field("", "program", int(program))
     return None
 
 

@@ -39,6 +39,11 @@ def random_frame(seed: int, draws: int = 5, **options: Any) -> Context:
     return context
 
 
+def set_groups(context: Context, **groups: Any) -> None:
+    """Replace groups of a context's state, each by its name."""
+    context.change_state(replace(context.state, **groups))
+
+
 def covering(z: float, color: tuple[float, float, float, float] = (1, 1, 1, 1)) -> Any:
     """One counter-clockwise triangle over the whole window at a depth in clip space."""
     return vertices([[-1, -1, z, 1], [3, -1, z, 1], [-1, 3, z, 1]], np.tile(color, (3, 1)))

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from draws import draw
-from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering, random_frame
+from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering, random_frame, set_groups
 from softshadow import gl as facade
 from softshadow import tokens as gl
 from softshadow.context import Context
@@ -69,12 +69,12 @@ def counting_context() -> Context:
     """A surface at z = 0.5, and a counter that goes up where the depth test fails."""
     context = Context(*SIZE)
     context.execute(Clear(context.state, ALL_BUFFERS))
-    context.set(depth=replace(context.state.depth, enabled=True))
+    set_groups(context, depth=replace(context.state.depth, enabled=True))
     context.labels.append("surface")
     draw(context, context.state, covering(0.0))
     context.end_step("surface")
     face = StencilFace(zfail=gl.GL_INCR)
-    context.set(stencil=replace(context.state.stencil, enabled=True, front=face, back=face))
+    set_groups(context, stencil=replace(context.state.stencil, enabled=True, front=face, back=face))
     context.labels[:] = ["volume"]
     return context
 
@@ -93,7 +93,7 @@ def test_reason_of_a_failed_depth_test_names_the_operation_that_followed():
 def test_reason_of_a_failed_stencil_test_has_the_masked_values():
     context = counting_context()
     face = StencilFace(func=gl.GL_EQUAL, ref=3, read_mask=0x0E, sfail=gl.GL_REPLACE, write_mask=0x01)
-    context.set(stencil=replace(context.state.stencil, front=face, back=face))
+    set_groups(context, stencil=replace(context.state.stencil, front=face, back=face))
     draw(context, context.state, covering(-0.5))
     expected = "stencil test EQUAL: (3 & 0x0E) == (0 & 0x0E) is false, so sfail REPLACE: stencil 0 -> 1 under mask 0x01"
     assert last_reason(context) == expected
@@ -101,7 +101,7 @@ def test_reason_of_a_failed_stencil_test_has_the_masked_values():
 
 def test_reason_of_a_passed_fragment_says_what_it_wrote():
     context = counting_context()
-    context.set(stencil=replace(context.state.stencil, enabled=False))
+    set_groups(context, stencil=replace(context.state.stencil, enabled=False))
     draw(context, context.state, covering(-0.5))
     assert last_reason(context) == "depth test LESS: 0.25 < 0.5 is true: colour and depth written"
 
@@ -115,7 +115,7 @@ def test_depths_that_six_digits_do_not_tell_apart_get_more():
 
 def test_reason_of_a_failed_alpha_test_has_both_alphas():
     context = counting_context()
-    context.set(alpha=replace(context.state.alpha, enabled=True, func=gl.GL_GREATER, ref=0.6))
+    set_groups(context, alpha=replace(context.state.alpha, enabled=True, func=gl.GL_GREATER, ref=0.6))
     draw(context, context.state, covering(-0.5, (1, 1, 1, 0.4)))
     assert last_reason(context) == "alpha test GREATER: 0.4 > 0.6 is false: discarded"
 
@@ -138,9 +138,10 @@ def test_alpha_that_is_no_number_is_compared_as_one():
 
 def test_culled_triangles_and_pixels_outside_the_scissor_box_have_rows():
     context = counting_context()
-    context.set(cull=replace(context.state.cull, enabled=True, face=gl.GL_FRONT))
+    set_groups(context, cull=replace(context.state.cull, enabled=True, face=gl.GL_FRONT))
     draw(context, context.state, covering(-0.5))
-    context.set(
+    set_groups(
+        context,
         cull=replace(context.state.cull, enabled=False),
         scissor=replace(context.state.scissor, enabled=True, x=0, y=0, width=2, height=2),
     )
@@ -169,7 +170,8 @@ def test_rows_name_step_object_and_triangle():
 
 def test_clears_have_rows_with_what_they_write():
     context = Context(*SIZE)
-    context.set(
+    set_groups(
+        context,
         color=replace(context.state.color, clear=(0.0, 0.5, 1.0, 1.0)),
         stencil=replace(context.state.stencil, clear=7, front=StencilFace(write_mask=0x05)),
     )
@@ -188,7 +190,7 @@ def test_table_tells_both_conventions_of_y():
 
 def test_history_of_a_part_tells_only_its_own_pixel():
     context = Context(*SIZE)
-    context.set(scissor=replace(context.state.scissor, enabled=True, x=4, y=0, width=1, height=1))
+    set_groups(context, scissor=replace(context.state.scissor, enabled=True, x=4, y=0, width=1, height=1))
     draw(context, context.state, covering(0.0))
     passed = [p for p in all_pixels() if any(row.verdict == "passed" for row in pixel_history(context.frame, *p))]
     assert passed == [(4, SIZE[1] - 1)]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from draws import draw
-from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering
+from inspection.recorded_frames import ALL_BUFFERS, SIZE, covering, set_groups
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of
@@ -19,11 +19,11 @@ PIXELS = SIZE[0] * SIZE[1]
 def test_every_fragment_is_counted_under_its_verdict():
     context = Context(*SIZE)
     context.execute(Clear(context.state, ALL_BUFFERS))
-    context.set(depth=replace(context.state.depth, enabled=True))
+    set_groups(context, depth=replace(context.state.depth, enabled=True))
     draw(context, context.state, covering(0.0))
     context.end_step("surface")
     face = StencilFace(zfail=gl.GL_INCR)
-    context.set(stencil=replace(context.state.stencil, enabled=True, front=face, back=face))
+    set_groups(context, stencil=replace(context.state.stencil, enabled=True, front=face, back=face))
     draw(context, context.state, covering(0.5))
     draw(context, context.state, covering(-0.5))
     context.end_step("count")

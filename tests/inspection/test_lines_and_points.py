@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from draws import random_state, random_triangles, vertices
-from inspection.recorded_frames import SIZE
+from inspection.recorded_frames import SIZE, set_groups
 from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.inspection import ledger_of, pixel_history
@@ -84,7 +84,7 @@ def test_a_row_names_the_number_of_the_line_and_no_facing():
 
 def test_a_row_of_an_outline_names_the_facing_of_its_polygon():
     context = Context(*SIZE)
-    context.set(polygon=replace(context.state.polygon, mode_front=gl.GL_LINE, mode_back=gl.GL_LINE))
+    set_groups(context, polygon=replace(context.state.polygon, mode_front=gl.GL_LINE, mode_back=gl.GL_LINE))
     corners = [(-0.9, -0.9, 0, 1), (0.9, -0.9, 0, 1), (0.9, 0.9, 0, 1)]
     draw(context, gl.GL_TRIANGLES, vertices(corners[::-1]))
     context.end_step("outline")
