@@ -113,3 +113,43 @@ def test_linear_filter_is_for_scaled_blits_of_floats_only(target):
     assert comparison, str(comparison)
     copied = np.isin(comparison.ours.returned[0], texels).all()
     assert copied == (abs(target[2] - target[0]) == 11 and abs(target[3] - target[1]) == 18)
+
+
+def filled(gl, brightness):
+    """Create and bind a framebuffer object with a texture of the window's size, of one colour; return its name."""
+    name = gl.glGenFramebuffers(1)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
+    texture = gl.glGenTextures(1)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+    texels = np.full((SIZE[1], SIZE[0], 4), brightness, np.uint8)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA8, *SIZE, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+    return name
+
+
+@pytest.mark.parametrize(
+    ("reads_window", "draws_window", "source", "target", "box"),
+    [
+        (False, False, (-5, 27, 17, 53), (12, -5, 34, 21), (19, 5, 16, 22)),  # in the box, no row has a texel
+        (True, False, (7, 55, 50, 27), (0, 31, 7, -9), (0, 0, 3, 28)),
+        (False, True, (38, 41, 21, 25), (18, 5, 26, 46), (0, 0, *SIZE)),
+        (False, True, (2, 27, -9, 33), (-12, 37, 19, -5), (0, 0, *SIZE)),
+        (False, True, (25, -14, 30, 7), (38, 21, 43, 42), (28, 11, 18, 15)),
+    ],
+)
+def test_where_clipping_leaves_no_texel_nothing_is_written(reads_window, draws_window, source, target, box):
+    def program(gl):
+        gl.glClearColor(0.4, 0.4, 0.4, 0.4)
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+        read, draw = filled(gl, 200), filled(gl, 100)
+        read, draw = 0 if reads_window else read, 0 if draws_window else draw
+        gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, read)
+        gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, draw)
+        gl.glEnable(gl.GL_SCISSOR_TEST)
+        gl.glScissor(*box)
+        gl.glBlitFramebuffer(*source, *target, gl.GL_COLOR_BUFFER_BIT, gl.GL_NEAREST)
+        gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, draw)
+        return gl.glReadPixels(0, 0, *SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)

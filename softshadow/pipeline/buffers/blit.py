@@ -142,6 +142,8 @@ def rectangles_of(command: BlitFramebuffer, source: Framebuffer, target: Framebu
     if dy0 > dy1:
         dy0, dy1, sy0, sy1 = dy1, dy0, sy1, sy0
     written_box = (min(columns), min(rows), max(columns), max(rows))
+    if min(written_box) < 0:  # Mesa's scissor box has unsigned numbers: this one is beyond all pixels
+        return None
     return Rectangles((sx0, sy0, sx1, sy1), (dx0, dy0, dx1, dy1), written_box, is_cut, source.name == DEFAULT)
 
 
