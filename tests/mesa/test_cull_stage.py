@@ -14,7 +14,7 @@ pytestmark = pytest.mark.mesa
 SIZE = (48, 40)
 POLICIES: tuple[bool | Literal["always"], ...] = (True, "always", False)  # draws wait under the first one only
 MODES = ("GL_TRIANGLES", "GL_TRIANGLE_STRIP", "GL_TRIANGLE_FAN", "GL_QUADS", "GL_QUAD_STRIP", "GL_POLYGON")
-WAYS = ("begin", "pairs", "list", "arrays", "elements", "buffers", "draws")
+WAYS = ("begin", "pairs", "list", "arrays", "elements", "buffers", "draws", "groups")
 N = 256  # vertices of most draws
 PROGRAMS = 40 if os.environ.get("SOFTSHADOW_LANE") == "all" else 6  # of each mode and way
 
@@ -64,6 +64,11 @@ def draw(gl, way, mode, vertices, seed):
     random = np.random.default_rng(seed + 2000)
     if way == "begin":
         pair(gl, mode, vertices)
+    elif way == "groups":  # which Mesa draws together; the last pair is not complete
+        for part in np.split(vertices[:-2], range(24, len(vertices) - 2, 24)):
+            gl.glPushDebugGroup(gl.GL_DEBUG_SOURCE_APPLICATION, 0, -1, "part")
+            pair(gl, mode, part)
+            gl.glPopDebugGroup()
     elif way in ("pairs", "list"):
         parts = np.array_split(vertices, len(vertices) // 8)
         if way == "list":

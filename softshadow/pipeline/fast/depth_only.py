@@ -130,12 +130,13 @@ class WindowMesh(NamedTuple):
 def window_mesh(command: Draw, target: Framebuffer, storage: Storage | None = None) -> WindowMesh:
     """Return the triangles of a draw without colours (`plan.writes_no_colors`).
 
-    With a `storage`, those of an equal draw before it, but for its culling and its scissor box, if they are recent.
+    With a `storage`, those of an equal draw before it, but for which faces are culled and for its scissor box, if they
+    are recent.
     """
     recent, key = recent_of(storage), None
     vertices = command.vertices
     if is_covered(command) and vertices.edges is None:
-        key = "mesh", *triangles_key(command), *window_key(command, target)
+        key = "mesh", command.state.cull.enabled, *triangles_key(command), *window_key(command, target)
     found = recent.look_up(key) if recent and key else None
     if found is None:
         window, clipped = _clipped(command, target, positions_of(command, target))
@@ -266,7 +267,8 @@ def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[
     """Return the vertices in the window, new ones of clipping last, and the clipped triangles."""
     clip, codes, window, planes = positions
     triangles = triangles_of(command, target, codes, planes, across=False).corners
-    in_stages, triangles = triangles_in_stages(command, codes, planes, triangles), read_only(triangles)
+    in_stages = triangles_in_stages(command, codes, planes, triangles) if command.state.cull.enabled else NO_STAGES
+    triangles = read_only(triangles)
     none = np.empty(0, np.int64)
     if not codes.any():
         return window, ClippedTriangles(triangles, np.empty(0, np.uint8), none, triangles[:0], np.zeros(1, np.int64))

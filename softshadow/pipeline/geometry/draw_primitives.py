@@ -67,10 +67,9 @@ def triangles_in_stages(command: Draw, codes: np.ndarray, planes: np.ndarray, co
         pair = np.cumsum(begins) - 1
         return (np.bincount(pair, needs[corners].any(axis=1)) > 0)[pair].view(np.uint8)
     clipped = in_clipped_segment(command.mode, needs, command.indices)
-    if command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP):
-        clipped = np.repeat(clipped, 2)
-    first = 0 if joined_needs is None else len(clipped) * command.joined_start // len(joined_needs)
-    return clipped[first : first + len(corners)].view(np.uint8)
+    are_quads = command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP)
+    first = command.joined_start // (2 if are_quads else 3)  # of all joined draws, which are of quads or triangles
+    return (np.repeat(clipped, 2) if are_quads else clipped)[first : first + len(corners)].view(np.uint8)
 
 
 def joined_needs_clipping(command: Draw, planes: np.ndarray) -> np.ndarray | None:

@@ -110,7 +110,7 @@ class Batch(NamedTuple):
 
 
 class RunTriangles(NamedTuple):
-    """The triangles of a run, to be used again: `setups` by culling.
+    """The triangles of a run, to be used again: `setups` by which faces are culled.
 
     cut (3 C,): the vertices of the triangles that are cut; None for a run without colours.
     """
@@ -160,7 +160,7 @@ def geometry_of(
     if is_polygons:
         edges = NO_EDGES if is_filled else _drawn_edges(draws)
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
-        if is_filled and (setting.culled or recent):
+        if is_filled and setting.culled:
             clipped = clipped.passing_stages(_in_stages(draws, codes, run.user_planes, triangles[:n_triangles]))
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
@@ -292,11 +292,12 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
 
 
 def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer) -> Hashable:
-    """Return what the triangles of a run depend on, but for its culling."""
+    """Return what the triangles of a run depend on, but for which faces are culled."""
     image = target.depth
     return (
         *map(triangles_key, draws), window_key(run.command, target), *views.of_draws, views.scales.tobytes(),
-        views.shifts.tobytes(), repr(setting.offset), run.across, None if image is None else image.format,
+        views.shifts.tobytes(), repr(setting.offset), run.across, setting.culled != 0,
+        None if image is None else image.format,
     )  # fmt: skip
 
 
