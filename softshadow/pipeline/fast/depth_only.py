@@ -72,7 +72,8 @@ class ClippedTriangles(NamedTuple):
 
     triangles (T, 3) int32; sides (T,) uint8: INSIDE, OUTSIDE or CUT, empty where all are inside; cut (K,): the numbers
     of those that are cut; pieces (P, 3) int32: what is left of these, of the k-th
-    ``pieces[starts[k] : starts[k + 1]]``; in_stages (T,) uint8: which pass Mesa's cull stage, empty for none.
+    ``pieces[starts[k] : starts[k + 1]]``; in_stages (T,) uint8: which pass Mesa's cull stage, empty for none, or None
+    where nobody has asked.
     """
 
     triangles: np.ndarray
@@ -80,7 +81,7 @@ class ClippedTriangles(NamedTuple):
     cut: np.ndarray
     pieces: np.ndarray
     starts: np.ndarray
-    in_stages: np.ndarray = NO_STAGES
+    in_stages: np.ndarray | None
 
     def most(self, first: int, end: int) -> int:
         """Return an upper bound on how many triangles clipping leaves of [first, end)."""
@@ -92,11 +93,13 @@ class ClippedTriangles(NamedTuple):
 
         Those that the cull stage leaves out have no area: see `facing.leave_out_culled`.
         """
-        visible, in_stages = self.triangles[first:end], self.in_stages[first:end]
+        all_in_stages = NO_STAGES if self.in_stages is None else self.in_stages
+        visible, in_stages = self.triangles[first:end], all_in_stages[first:end]
         if self.sides[first:end].any():
             most = self.most(first, end)
             visible, of_visible = np.empty((most, 3), np.int32), np.empty(most if len(in_stages) else 0, np.uint8)
-            count = write_visible(*self, first, end, np.searchsorted(self.cut, first), visible, of_visible)
+            first_cut = np.searchsorted(self.cut, first)
+            count = write_visible(*self[:5], all_in_stages, first, end, first_cut, visible, of_visible)
             visible, in_stages = visible[:count], of_visible[:count]
         elif culled and in_stages.any():
             visible = visible.copy()
@@ -130,14 +133,15 @@ class WindowMesh(NamedTuple):
 def window_mesh(command: Draw, target: Framebuffer, storage: Storage | None = None) -> WindowMesh:
     """Return the triangles of a draw without colours (`plan.writes_no_colors`).
 
-    With a `storage`, those of an equal draw before it, but for which faces are culled and for its scissor box, if they
-    are recent.
+    With a `storage`, those of an equal draw before it, but for its culling and its scissor box, if they are recent.
     """
     recent, key = recent_of(storage), None
     vertices = command.vertices
     if is_covered(command) and vertices.edges is None:
-        key = "mesh", command.state.cull.enabled, *triangles_key(command), *window_key(command, target)
+        key = "mesh", *triangles_key(command), *window_key(command, target)
     found = recent.look_up(key) if recent and key else None
+    if found is not None and command.state.cull.enabled and found[1].in_stages is None:
+        found = None
     if found is None:
         window, clipped = _clipped(command, target, positions_of(command, target))
         found = window, clipped, *snapped_vertices(window)
@@ -267,11 +271,12 @@ def _clipped(command: Draw, target: Framebuffer, positions: Positions) -> tuple[
     """Return the vertices in the window, new ones of clipping last, and the clipped triangles."""
     clip, codes, window, planes = positions
     triangles = triangles_of(command, target, codes, planes, across=False).corners
-    in_stages = triangles_in_stages(command, codes, planes, triangles) if command.state.cull.enabled else NO_STAGES
+    in_stages = triangles_in_stages(command, codes, planes, triangles) if command.state.cull.enabled else None
     triangles = read_only(triangles)
     none = np.empty(0, np.int64)
     if not codes.any():
-        return window, ClippedTriangles(triangles, np.empty(0, np.uint8), none, triangles[:0], np.zeros(1, np.int64))
+        starts = np.zeros(1, np.int64)
+        return window, ClippedTriangles(triangles, np.empty(0, np.uint8), none, triangles[:0], starts, NO_STAGES)
     sides, parts = np.empty(len(triangles), np.uint8), parts_of(len(triangles))
     share(lambda n: write_sides(triangles, codes, *parts[n], sides), len(parts))
     cut = np.flatnonzero(sides == CUT)

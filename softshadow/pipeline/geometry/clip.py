@@ -29,7 +29,7 @@ class Clipped(NamedTuple):
     clip (V', 4) and values (V', k): the vertices, the old ones first and unchanged; triangles (T', 3) int32, lines
     (T', 2), points (T', 1); source (T',) int32: which input primitive each is a piece of; edges (T', 3) uint8: which
     edges of triangles, from corner i to corner i + 1, are edges of the drawn primitives; in_stages (T',) uint8: which
-    triangles pass Mesa's cull stage, empty for none (`facing.leave_out_culled`).
+    triangles pass Mesa's cull stage, empty for none, or None where nobody has asked (`facing.leave_out_culled`).
     """
 
     clip: np.ndarray
@@ -37,7 +37,7 @@ class Clipped(NamedTuple):
     triangles: np.ndarray
     source: np.ndarray
     edges: np.ndarray = NO_EDGES
-    in_stages: np.ndarray = NO_STAGES
+    in_stages: np.ndarray | None = None
 
     def passing_stages(self, in_stages: np.ndarray) -> "Clipped":
         """Return the same pieces, those of input primitives that pass the cull stage marked; none in an empty array."""
@@ -67,7 +67,7 @@ def clip_triangles(
     """
     triangles = read_only(triangles)
     if not codes.any():
-        return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges)
+        return Clipped(clip, values, triangles, np.arange(len(triangles), dtype=np.int32), edges, NO_STAGES)
     sides = scratch(len(triangles), np.uint8)
     write_sides(triangles, codes, 0, len(triangles), sides)
     n_inside, n_cut = int(np.count_nonzero(sides == INSIDE)), int(np.count_nonzero(sides == CUT))

@@ -111,7 +111,7 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
 def left_by_cull_stage(window: np.ndarray, clipped: Clipped, cull: Cull, flipped: bool) -> np.ndarray:
     """Return the triangles (T', 3) of a draw, without an area those that Mesa's cull stage leaves out."""
     culled, positive_is_front = stored_culling(cull, flipped)
-    if not culled or not len(clipped.in_stages):
+    if not culled or clipped.in_stages is None or not len(clipped.in_stages):
         return clipped.triangles
     triangles = clipped.triangles.copy()
     leave_out_culled(window, triangles, clipped.in_stages, culled, positive_is_front)

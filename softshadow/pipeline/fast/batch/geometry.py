@@ -110,7 +110,7 @@ class Batch(NamedTuple):
 
 
 class RunTriangles(NamedTuple):
-    """The triangles of a run, to be used again: `setups` by which faces are culled.
+    """The triangles of a run, to be used again: `setups` by culling.
 
     cut (3 C,): the vertices of the triangles that are cut; None for a run without colours.
     """
@@ -132,6 +132,8 @@ def geometry_of(
     views = views_of(draws, target)
     key = _key_of(run, setting, draws, views, target) if recent else ()
     known: RunTriangles | None = recent.look_up(key) if recent else None
+    if known and setting.culled and known.clipped.in_stages is None:
+        known = None
     if known and (known.cut is not None or not run.writes_color):
         return _batch(_repeated_geometry(run, setting, draws, views, target, known))
     table, most = table_of(run, draws, views), _most_primitives(draws)
@@ -252,8 +254,8 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: 
     window, setup = np.empty_like(clipped.clip), empty_setup(len(clipped.triangles), REAL)
     n_drawn, area = set_up_pieces(
         clipped.clip, geometry.window, views, table.scales, table.shifts, window, np.empty((len(window), 2), np.int32),
-        clipped.triangles, read_only(clipped.triangles), clipped.in_stages, setting.culled, setting.positive_is_front,
-        setting.offset, *setup,
+        clipped.triangles, read_only(clipped.triangles), NO_STAGES if clipped.in_stages is None else clipped.in_stages,
+        setting.culled, setting.positive_is_front, setting.offset, *setup,
     )  # fmt: skip
     return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
 
@@ -292,12 +294,11 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
 
 
 def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer) -> Hashable:
-    """Return what the triangles of a run depend on, but for which faces are culled."""
+    """Return what the triangles of a run depend on, but for its culling."""
     image = target.depth
     return (
         *map(triangles_key, draws), window_key(run.command, target), *views.of_draws, views.scales.tobytes(),
-        views.shifts.tobytes(), repr(setting.offset), run.across, setting.culled != 0,
-        None if image is None else image.format,
+        views.shifts.tobytes(), repr(setting.offset), run.across, None if image is None else image.format,
     )  # fmt: skip
 
 
