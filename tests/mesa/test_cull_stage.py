@@ -131,10 +131,10 @@ def test_triangles_that_are_used_again_are_culled_anew(way, writes_color):
         def program(gl, seed=seed):
             vertices = slivers(seed, 6000)
             gl.glEnable(gl.GL_STENCIL_TEST)
-            gl.glEnable(gl.GL_CULL_FACE)
             gl.glColorMask(*[writes_color] * 4)
-            for culled in (gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT):
-                gl.glCullFace(culled)
+            for culled in (None, gl.GL_FRONT, gl.GL_BACK, None, gl.GL_BACK, gl.GL_FRONT):
+                (gl.glDisable if culled is None else gl.glEnable)(gl.GL_CULL_FACE)
+                gl.glCullFace(culled or gl.GL_BACK)
                 gl.glStencilOp(gl.GL_KEEP, gl.GL_KEEP, gl.GL_INCR_WRAP if culled == gl.GL_FRONT else gl.GL_DECR_WRAP)
                 draw(gl, way, gl.GL_TRIANGLES, vertices, seed)
                 gl.glFinish()

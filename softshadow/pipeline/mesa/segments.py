@@ -16,7 +16,8 @@ SPLIT = {  # mode: vertices of the first primitive, and of each one more (draw_p
     gl.GL_TRIANGLES: (3, 3), gl.GL_TRIANGLE_STRIP: (3, 1), gl.GL_TRIANGLE_FAN: (3, 1), gl.GL_POLYGON: (3, 1),
     gl.GL_QUADS: (4, 4), gl.GL_QUAD_STRIP: (4, 2),
 }  # fmt: skip
-AROUND_FIRST = (gl.GL_TRIANGLE_FAN, gl.GL_POLYGON)  # all segments have the first vertex; several are as with indices
+# all their segments have the first vertex; where there are several, these are as short as with indices
+AROUND_FIRST = (gl.GL_TRIANGLE_FAN, gl.GL_POLYGON)
 
 
 def quads_and_stride(mode: int, n_vertices: int) -> tuple[int, int]:

@@ -228,8 +228,9 @@ def _in_stages(draws: Sequence[Draw], codes: np.ndarray, user_planes: np.ndarray
     for draw in draws:
         end = start + len(draw.vertices.position)
         last = first + primitive_count(draw.mode, _named_vertices(draw))
-        of_draw = triangles_in_stages(draw, codes[start:end], user_planes, triangles[first:last] - start)
-        in_stages[first : first + len(of_draw)] = of_draw
+        if codes[start:end].any():
+            of_draw = triangles_in_stages(draw, codes[start:end], user_planes, triangles[first:last] - start)
+            in_stages[first : first + len(of_draw)] = of_draw
         start, first = end, last
     return in_stages
 
