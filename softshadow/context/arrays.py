@@ -21,7 +21,7 @@ SLOTS = {"position": POSITION, "color": COLOR, "normal": NORMAL}
 SLOTS |= {f"texcoord{unit}": TEXCOORD + unit for unit in range(TEXTURE_UNITS)}
 SLOTS |= {"edge": EDGE, "secondary": SECONDARY, "fog_coordinate": FOG_COORDINATE, "index": FOG_COORDINATE + 1}
 SLOT_NAMES = tuple(SLOTS)
-INITIAL_SIZES = {"secondary": 3}  # of arrays that do not begin with 4 components
+INITIAL_SIZES = {"normal": 3, "secondary": 3, "fog_coordinate": 1}  # of arrays that do not begin with 4 components
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from softshadow.context.arrays import (
     RowSnapshot,
     VertexArray,
 )
+from softshadow.gl.constant_attributes import repeat_row
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.memory.comparison import same_memory
 
@@ -32,6 +33,7 @@ WIDTHS = {NORMAL: 3, FOG_COORDINATE: 1}  # numbers of a vertex, where they are n
 LARGEST_PART = 4  # a changed array is copied whole if a draw reads a fourth of it or more
 ALWAYS_WHOLE = 1 << 16  # bytes: up to here, a new array is copied whole
 MOST_SLICES = 4096  # of one snapshot
+ENDLESS = 1 << 40  # rows of an array that has none of its own
 
 
 # -- arrays ------------------------------------------------------------------------------------------------------------
@@ -81,6 +83,14 @@ def origins(first: int, end: int, context: Context) -> RowSnapshot:
     rows[:, 3] = 1
     rows.setflags(write=False)
     return RowSnapshot(POSITION, first, end, rows)
+
+
+def unset_array(slot: int, size: int) -> VertexArray:
+    """Return the array of an attribute that is enabled, but has no pointer: its numbers are 0, as on Mesa.
+
+    GL leaves open what is read; other drivers may end the process.
+    """
+    return VertexArray(slot, repeat_row(np.zeros(size, np.float32), ENDLESS), ArrayLayout(size), None, is_fixed=False)
 
 
 def _grown(kept: RowSnapshot, first: int, end: int, length: int) -> tuple[int, int]:

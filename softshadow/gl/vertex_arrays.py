@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.context import ArrayLayout, ClientArrays, Context, current
 from softshadow.context.arrays import SLOT_NAMES, SLOTS, BufferObject, VertexArray
 from softshadow.frozen import evolve
-from softshadow.gl.array_snapshots import vertex_array
+from softshadow.gl.array_snapshots import unset_array, vertex_array
 from softshadow.gl.buffers import offset_of
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
@@ -197,9 +197,17 @@ def arrays_in_use(context: Context) -> tuple[VertexArray, ...]:
     """Return the enabled arrays that a draw reads, positions first."""
     active = context.arrays.active
     if active is None:
-        arrays = (array_of(context, key) for key in SLOT_NAMES if key in context.arrays.enabled and key != NOT_DRAWN)
-        active = context.arrays.active = tuple(array for array in arrays if array is not None)
+        keys = [key for key in SLOT_NAMES if key in context.arrays.enabled and key != NOT_DRAWN]
+        arrays = [array_of(context, key) or _array_without_pointer(context, key) for key in keys]
+        active = context.arrays.active = tuple([array for array in arrays if array is not None])
     return active
+
+
+def _array_without_pointer(context: Context, key: str) -> VertexArray | None:
+    """Return an array of zeros; None for positions, without which nothing is drawn, and for edge flags."""
+    if key in ("position", "edge"):
+        return None
+    return unset_array(SLOTS[key], context.arrays.layout(key).size)
 
 
 def array_of(context: Context, key: str) -> VertexArray | None:

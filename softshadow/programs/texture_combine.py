@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.programs.texture_environment import saturated
 from softshadow.state import Combine
 
 ZERO, HALF, ONE, TWO = np.float32(0.0), np.float32(0.5), np.float32(1.0), np.float32(2.0)
@@ -96,5 +97,5 @@ def _function(mode: int, arguments: list[np.ndarray]) -> np.ndarray:
 
 def _scale(value: np.ndarray, scale: float, mode: int) -> np.ndarray:
     if scale != 1:
-        return (value * np.float32(scale)).clip(ZERO, ONE)
-    return value if mode in UNLIMITED else value.clip(ZERO, ONE)
+        return saturated(value * np.float32(scale))
+    return value if mode in UNLIMITED else saturated(value)

@@ -21,6 +21,12 @@ def mix(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return mixed
 
 
+def saturated(values: np.ndarray) -> np.ndarray:
+    """Return values clamped to [0, 1], NaN as 0; as `filtering.clamp_to_unit`."""
+    clamped: np.ndarray = np.where(values > ZERO, np.minimum(values, ONE), ZERO)
+    return clamped
+
+
 def apply_environment(
     fragment: np.ndarray, texel: np.ndarray, mode: int, base: int, env_color: tuple[float, float, float, float]
 ) -> None:
@@ -44,12 +50,12 @@ def apply_environment(
             if mode == gl.GL_MODULATE:
                 rgb *= texel_rgb
             elif mode == gl.GL_ADD:
-                rgb[:] = (rgb + texel_rgb).clip(ZERO, ONE)
+                rgb[:] = saturated(rgb + texel_rgb)
             else:
                 rgb[:] = mix(rgb, constant[:3], texel_rgb)
         if has_alpha:
             if base == gl.GL_INTENSITY and mode == gl.GL_ADD:
-                alpha[:] = (alpha + texel_alpha).clip(ZERO, ONE)
+                alpha[:] = saturated(alpha + texel_alpha)
             elif base == gl.GL_INTENSITY and mode == gl.GL_BLEND:
                 alpha[:] = mix(alpha, constant[3], texel_alpha)
             else:

@@ -58,7 +58,7 @@ from softshadow.pipeline.fast.span_state import (
 from softshadow.pipeline.fast.span_textures import place_block, sample_block
 from softshadow.pipeline.fast.special_fragments import LINE_PLACES, POINT_PLACES, cover_block
 from softshadow.pipeline.shade.color_writes import BLUE, GREEN, UPPERMOST, byte_of
-from softshadow.programs.filtering import CONSTANT_ONE, UNORM8_STEP
+from softshadow.programs.filtering import CONSTANT_ONE, UNORM8_STEP, clamp_to_unit
 from softshadow.programs.llvmpipe_math import exp2_of_all
 
 RED_ROW, GREEN_ROW, BLUE_ROW, ALPHA_ROW = (np.uint64(n) * ROW for n in range(4))
@@ -242,9 +242,7 @@ def apply_environment_to_block(switches, numbers, unit, number, count, room):
                 room[row + n] = room[texel + n] * weight + room[row + n] * (ONE - weight)
         elif operation == ADD:
             for n in range(np.uint64(count)):
-                total = room[row + n] + room[texel + n]
-                total = ZERO if total < ZERO else total  # NaN stays; lines and points have colours below 0
-                room[row + n] = ONE if total >= ONE else total
+                room[row + n] = clamp_to_unit(room[row + n] + room[texel + n])  # lines and points have colours below 0
         elif operation == BLEND:
             for n in range(np.uint64(count)):
                 weight = room[texel + n]

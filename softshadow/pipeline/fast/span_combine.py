@@ -31,6 +31,7 @@ from softshadow.pipeline.fast.combine_numbers import (
 )
 from softshadow.pipeline.fast.fragment_block import OTHER_TEXEL, PRIMARY, RED, ROW, SIZE, TEXEL, R, S, T, W
 from softshadow.pipeline.fast.span_state import COMBINED, CONSTANT, SCALES
+from softshadow.programs.filtering import clamp_to_unit
 
 FIRST, SECOND, THIRD, RESULT = S, T, R, W  # rows that are free after the textures are sampled
 
@@ -150,6 +151,4 @@ def write_scaled(scale, is_clamped, c, count, room):
             room[row + n] = room[RESULT + n]
         return
     for n in range(np.uint64(count)):
-        value = room[RESULT + n] * scale
-        value = ZERO if value < ZERO else value  # NaN stays
-        room[row + n] = ONE if value > ONE else value
+        room[row + n] = clamp_to_unit(room[RESULT + n] * scale)
