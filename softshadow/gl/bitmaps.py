@@ -80,7 +80,7 @@ class PixelQuads:
     def _positions(self, left: int, bottom: int, size: tuple[int, int], real: Any) -> np.ndarray:
         """Return the corners (4 N, 4) in normalized device coordinates."""
         if not (self.is_small and self.is_near(left, bottom, size)):
-            return positions(self.quads + np.array([left, bottom, left, bottom]), size, EDGES, real)
+            return positions(self.quads + np.array([left, bottom, left, bottom]), size, real)
         return _near_positions(self.x + left, self.y + bottom, size, real)
 
     def is_near(self, left: int, bottom: int, size: tuple[int, int]) -> bool:

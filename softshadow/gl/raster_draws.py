@@ -23,8 +23,7 @@ from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
 # the unit square in the order of Mesa's vertices; for images in framebuffer objects it counts rows from the top
 CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
 CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-# of left, bottom, right, top: x and y of each corner
-EDGES, EDGES_FROM_TOP = (2 * corners + [0, 1] for corners in (CORNERS, CORNERS_FROM_TOP))
+EDGES = 2 * CORNERS + [0, 1]  # of left, bottom, right, top: x and y of each corner
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 KEPT_VERTICES = 1024  # of a draw; a character has some hundred
 
@@ -51,10 +50,10 @@ def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Ver
     )
 
 
-def positions(quads: np.ndarray, size: tuple[int, int], edges: np.ndarray, real: Any) -> np.ndarray:
+def positions(quads: np.ndarray, size: tuple[int, int], real: Any) -> np.ndarray:
     """Return the corners (4 N, 4) of quads (N, 4) in pixels, in normalized device coordinates."""
     position = np.ones((len(quads), 4, 4), real)
-    position[:, :, :2] = normalized(quads, size * 2, real)[:, edges]
+    position[:, :, :2] = normalized(quads, size * 2, real)[:, EDGES]
     position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
     return position.reshape(-1, 4)
 
@@ -173,7 +172,7 @@ def _without_vertex_stages(state: State, viewport: Viewport, in_window: bool, cl
         state,
         viewport=viewport,
         cull=Cull(front_face=gl.GL_CW if in_window else gl.GL_CCW),  # as in Mesa, for the stencil test of two sides
-        polygon=Polygon(),
+        polygon=Polygon(upper_edges=state.polygon.upper_edges),
         lighting=evolve(state.lighting, enabled=False),
         clip_planes=ClipPlanes(),
         depth=evolve(state.depth, clamp=clamps),

@@ -13,8 +13,6 @@ from softshadow.frozen import evolve, remembered
 from softshadow.gl.raster_draws import (
     CORNERS,
     CORNERS_FROM_TOP,
-    EDGES,
-    EDGES_FROM_TOP,
     attributes_of,
     draw_at,
     positions,
@@ -81,13 +79,14 @@ def _draw_of_texture(context: Context, texture: int, width: int, height: int, le
     zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
     x, y, *_ = context.current.raster.window
     x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
-    x1, y1 = x0 + np.float32(width) * zoom_x, y0 + np.float32(height) * zoom_y
-    if context.state.draw_framebuffer != DEFAULT:  # Mesa takes the whole part of the top row
-        y1 = np.trunc(y1)
-        y0 = y1 - np.float32(height) * zoom_y
-    quad = np.array([[x0, y0, x1, y1]], np.float32)
-    draw = _draw_of_quad(context, quad, _textured(context.state, FIRST_UNITS[texture]))
-    return draw._replace(shown_at=_shown_at(context, float(x0), float(y0), width, height))
+    x1, shown_at = x0 + np.float32(width) * zoom_x, _shown_at(context, float(x0), float(y0), width, height)
+    in_object = context.state.draw_framebuffer != DEFAULT
+    if in_object:  # where Mesa counts rows from the top, and takes the whole part of the rectangle's upper end
+        size = context.objects.framebuffers[context.state.draw_framebuffer].size
+        y0 = size[1] - np.trunc(y0 + np.float32(height) * zoom_y)
+    quad = np.array([[x0, y0, x1, y0 + np.float32(height) * zoom_y]], np.float32)
+    state = _textured(context.state, FIRST_UNITS[texture], in_object and shown_at is None)
+    return _draw_of_quad(context, quad, state)._replace(shown_at=shown_at)
 
 
 def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> tuple[int, int, int, int] | None:
@@ -112,18 +111,21 @@ FIRST_UNITS = {name: TextureUnit(enabled_2d=True, bound_2d=name, env_mode=gl.GL_
 
 
 @remembered
-def _textured(state: State, first: TextureUnit) -> State:
-    """Return the state with the rectangle of the first unit as its only texture."""
+def _textured(state: State, first: TextureUnit, upper_edges: bool) -> State:
+    """Return the state with the rectangle of the first unit as its only texture; see `Polygon.upper_edges`."""
     others = tuple(evolve(unit, **dict.fromkeys(SWITCHES.values(), False)) for unit in state.units[1:])
-    return evolve(state, units=(first, *others))
+    polygon = evolve(state.polygon, upper_edges=True) if upper_edges else state.polygon
+    return evolve(state, units=(first, *others), polygon=polygon)
 
 
 def _draw_of_quad(context: Context, quad: np.ndarray, state: State) -> Draw:
-    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0."""
+    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0; rows are those of Mesa's quad."""
     real = cast(Any, context.real)
     size = context.objects.framebuffers[state.draw_framebuffer].size
     in_window = state.draw_framebuffer == DEFAULT
-    position = positions(quad, size, EDGES if in_window else EDGES_FROM_TOP, real)
+    position = positions(quad, size, real)
+    if not in_window:
+        position[:, 1] = -position[:, 1]
     color, texcoords = attributes_of(context.current.raster, 4, real)
     of_quad = texcoords[0].copy()
     of_quad[:, :2] = CORNERS if in_window else CORNERS_FROM_TOP

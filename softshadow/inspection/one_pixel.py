@@ -131,7 +131,7 @@ class OnePixel:
         assert isinstance(command, Draw)
         assert target is not None
         geometry = self.timeline.geometry(event)
-        fragments = self._fragments_of(geometry, target)
+        fragments = self._fragments_of(geometry, region_of(command.state, target).downwards)
         if not len(fragments.row):
             return
         cells, state = self.target(target), command.state
@@ -151,9 +151,9 @@ class OnePixel:
                 process(fragment, command.state, cells, inside, writes_color)
             yield fragment
 
-    def _fragments_of(self, geometry: Geometry, target: Framebuffer) -> Fragments:
+    def _fragments_of(self, geometry: Geometry, downwards: int) -> Fragments:
         triangles = np.empty(len(geometry.triangles.ids), np.int32)
-        n = triangles_at(geometry.triangles.corners, self.column, self.row, int(target.flipped), triangles)
+        n = triangles_at(geometry.triangles.corners, self.column, self.row, downwards, triangles)
         every = Fragments(np.full(n, self.row, np.int32), np.full(n, self.column, np.int32), triangles[:n].copy())
         return without_discarded(geometry, every)
 

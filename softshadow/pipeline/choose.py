@@ -245,6 +245,8 @@ def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> S
     most = sys.maxsize if plan.in_order and not plan.passing_spans else FEW_FRAGMENTS
     if not plan.forward or not 0 <= part.fragments <= most or part.end - part.first >= MANY_TRIANGLES:
         return None
+    if state.polygon.upper_edges:  # those of a group have one rule for edges
+        return None
     numbers = segment_state(state, plan.front, plan.back, target, part.batch, part.program.units, plan.numbers)
     if plan.counting and numbers is not None and discards_some(numbers.special):  # some that pass are left out later
         return None

@@ -77,7 +77,8 @@ class Polygon:
     """Polygon mode, polygon offset and stipple, and the sizes of lines and points.
 
     `stipple` holds the pattern of glPolygonStipple as GL stores it: 32 rows from bottom to top, four bytes each, the
-    highest bit is left.
+    highest bit is left. With `upper_edges`, samples on upper edges are inside, and those on lower edges are not, in a
+    framebuffer object, too: so Mesa draws the rectangles of glDrawPixels and glCopyPixels.
     """
 
     mode_front: int = gl.GL_FILL
@@ -92,6 +93,7 @@ class Polygon:
     smooth: bool = False
     stippled: bool = False
     stipple: bytes = SOLID
+    upper_edges: bool = False
 
     __repr__ = printed_calls
 

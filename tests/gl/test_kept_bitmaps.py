@@ -41,7 +41,7 @@ def test_places_of_characters(precision: str) -> None:
             character, (left, bottom) = characters[rng.integers(3)], places[rng.integers(len(places))]
             draw = bitmaps.draw_of_pixels(context, character, left, bottom)
             moved = character.quads + np.array([left, bottom, left, bottom])
-            expected = raster_draws.positions(moved, (64, 40), raster_draws.EDGES, context.real)
+            expected = raster_draws.positions(moved, (64, 40), context.real)
             assert draw.vertices.position.tobytes() == expected.tobytes()
             assert draw.vertices.position.dtype == expected.dtype
             color = np.array(context.current.raster.color, context.real)

@@ -19,9 +19,10 @@ def region_of(state: State, target: Framebuffer) -> Region:
     """
     width, height = target.size
     left, right, bottom, top = 0, width, 0, height
+    downwards = int(target.flipped or state.polygon.upper_edges)
     box, attenuation = state.scissor, state.points.attenuation
     if not box.enabled and attenuation == NO_ATTENUATION:
-        return Region(left, right, bottom, top, int(target.flipped))
+        return Region(left, right, bottom, top, downwards)
     if box.enabled:
         left, right = max(left, box.x), min(right, box.x + box.width)
         bottom, top = max(bottom, box.y), min(top, box.y + box.height)
@@ -32,7 +33,7 @@ def region_of(state: State, target: Framebuffer) -> Region:
     left, bottom = min(left, width), min(bottom, height)  # kernels rely on columns and rows within the buffers
     right, top = max(left, right), max(bottom, top)
     first, end = (height - top, height - bottom) if target.flipped else (bottom, top)
-    return Region(left, right, first, end, int(target.flipped))
+    return Region(left, right, first, end, downwards)
 
 
 def depth_range_of(state: State, real: type) -> DepthRange:
