@@ -44,8 +44,11 @@ def swizzled(rgba: np.ndarray, sources: str, one: int) -> np.ndarray:
     if sources == "RGBA":
         return rgba
     out = np.empty((*rgba.shape[:-1], len(sources)), rgba.dtype)
-    if sources == "RGB" and rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
-        copy_rgb(read_only(rgba), out)
+    if sources == "RGB":
+        if rgba.dtype == np.uint8 and rgba.ndim == 3 and rgba.size >= LARGE:
+            copy_rgb(read_only(rgba), out)
+        else:
+            out[...] = rgba[..., :3]
         return out
     for channel, source in enumerate(sources):
         out[..., channel] = rgba[..., CHANNEL[source]] if source in CHANNEL else one * int(source)

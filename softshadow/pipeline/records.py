@@ -116,6 +116,10 @@ class DepthRange(NamedTuple):
     low: np.floating
     high: np.floating
 
+    def same_as(self, other: DepthRange) -> bool:
+        """Return whether both have the same bits: 0 is not -0."""
+        return self is other or repr(self) == repr(other)
+
 
 class FragmentCounts(NamedTuple):
     """How many fragments met which fate: verdicts (5,) int64, by `VERDICTS`; stencil_updates (1,) int64.

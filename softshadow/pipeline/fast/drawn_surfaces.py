@@ -144,7 +144,7 @@ def passing_spans(
         if surface.image is image
         and surface.now is image.version
         and _is_within(region, surface.region)
-        and repr(surface.depth_range) == repr(depth_range)  # 0 is not -0
+        and depth_range.same_as(surface.depth_range)
     ]
     found: list[tuple[int, DrawnSurface]] = []  # the number of the first triangle, and the surface
     first = 0

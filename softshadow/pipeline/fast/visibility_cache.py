@@ -56,8 +56,9 @@ class FillInputs(NamedTuple):
 
     def same_as(self, other: FillInputs) -> bool:
         """Return whether all inputs are equal, bit for bit."""
-        states = [(each.front, each.back, each.region, repr(each.depth_range)) for each in (self, other)]  # 0 is not -0
-        return states[0] == states[1] and all(map(same_bits, self.triangles, other.triangles))
+        ours, theirs = [(each.front, each.back, each.region) for each in (self, other)]
+        are_equal = ours == theirs and self.depth_range.same_as(other.depth_range)
+        return are_equal and all(map(same_bits, self.triangles, other.triangles))
 
     def fingerprint(self) -> int:
         """Return a hash of the inputs, from a few of the triangles."""

@@ -5,6 +5,7 @@ import os
 
 import numpy as np
 
+SMALL = 1 << 14  # bytes: up to here, copies are compared faster than memory, of which numpy must tell the address
 _memcmp = ctypes.CDLL("msvcrt" if os.name == "nt" else None).memcmp
 _memcmp.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
 _memcmp.restype = ctypes.c_int
@@ -21,6 +22,8 @@ def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
         return True
     if a.dtype != b.dtype or a.shape != b.shape:
         return False
+    if a.nbytes <= SMALL:
+        return a.tobytes() == b.tobytes()
     if a.flags.c_contiguous and b.flags.c_contiguous:
         return same_memory(a.ctypes.data, b.ctypes.data, a.nbytes)
     as_bits = f"u{a.dtype.itemsize}"
