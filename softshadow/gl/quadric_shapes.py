@@ -245,11 +245,11 @@ def disk(quad: Manner, inner: float, outer: float, slices: int, loops: int, star
         calls.set("normal", 0.0, 0.0, 1.0 if outside else -1.0)
     every, across = np.arange(slices + 1), np.arange(loops + 1)
 
-    def strip(mode: int, i: Any, j: Any, tip: bool = False) -> None:
-        """Draw a strip, after its middle if it is a fan around `tip`."""
+    def strip(mode: int, i: Any, j: Any, tip: bool = False, precise: bool = False) -> None:
+        """Draw a strip, after its middle if it is a fan around `tip`; `precise`: with the radius not rounded."""
         i, j = np.broadcast_arrays(i, j)
         radius = (outer - (delta * _ratio(j, loops)).astype(float)).astype(F32)
-        positions, changes = around.at(i, radius, F32(0)), {}
+        positions, changes = around.at(i, np.float64(outer) if precise else radius, F32(0)), {}
         if quad.has_texture:
             scale = (radius.astype(float) / outer / 2).astype(F32)
             coordinates = (around.at(i, scale, F32(0))[:, :2] + 0.5).astype(F32).astype(float)
@@ -268,10 +268,12 @@ def disk(quad: Manner, inner: float, outer: float, slices: int, loops: int, star
     spokes = range(slices if is_whole else slices + 1)
     if quad.style == GLU_POINT:
         strip(gl.GL_POINTS, np.repeat(np.array(spokes), loops + 1), np.tile(across, len(spokes)))
+    elif quad.style == GLU_LINE and inner == outer:
+        strip(gl.GL_LINE_STRIP, every, 0, precise=True)
     elif quad.style == GLU_LINE:
-        for j in range(1 if inner == outer else loops + 1):
+        for j in range(loops + 1):
             strip(gl.GL_LINE_STRIP, every, j)
-        for i in () if inner == outer else spokes:
+        for i in spokes:
             strip(gl.GL_LINE_STRIP, i, across)
     else:
         for i in () if is_whole else (0, slices):

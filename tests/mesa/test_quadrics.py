@@ -88,6 +88,22 @@ def test_a_list_keeps_the_style_with_which_it_was_compiled() -> None:
 
 
 @pytest.mark.mesa
+def test_the_radius_of_a_ring_of_lines_is_not_rounded() -> None:
+    def program(gl: Any) -> None:
+        rng, quadric = np.random.default_rng(0), gl.gluNewQuadric()
+        gl.gluQuadricDrawStyle(quadric, gl.GLU_LINE)
+        gl.glEnable(gl.GL_DEPTH_TEST)
+        for _ in range(40):
+            gl.glLoadIdentity()
+            gl.gluPerspective(50, 1.3, 0.5, 20)
+            gl.gluLookAt(*rng.uniform(-3, 3, 3).tolist(), 0, 0, 0, 0, 1, 0.1)
+            radius = round(rng.uniform(0.3, 1.2), 1)
+            gl.gluDisk(quadric, radius, radius, int(rng.integers(3, 12)), 2)
+
+    assert (comparison := compare(program, SIZE)), comparison
+
+
+@pytest.mark.mesa
 def test_strings_are_those_of_libglu() -> None:
     def program(gl: Any) -> np.ndarray:
         texts = [gl.gluErrorString(code) for code in (0, 1280, 1281, 1282, 1283, 1284, 1285, 1286, 100900, 100902)]
