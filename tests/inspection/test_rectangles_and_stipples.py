@@ -57,3 +57,24 @@ def test_rectangles_are_told_by_their_calls() -> None:
     reasons = [row.reason for row in recorded().pixel(18, 10)]
     assert "glDrawPixels or glCopyPixels of depths" in reasons
     assert "glDrawPixels or glCopyPixels of stencil values" in reasons
+
+
+def test_histories_have_the_rows_of_a_zoomed_rectangle_in_an_object(tmp_path: Path) -> None:
+    with gl.record(8, 8) as recording:
+        name = gl.glGenFramebuffers(1)
+        gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, gl.glGenRenderbuffers(1))
+        gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_RGBA8, 8, 8)
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)
+        gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_RENDERBUFFER, 1)
+        gl.glViewport(0, 0, 8, 8)
+        gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
+        gl.glPixelZoom(1, -0.5)
+        gl.glWindowPos2i(3, 3)
+        gl.glDrawPixels(1, 3, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, np.full((3, 1, 4), 255, np.uint8))
+        gl.glReadPixels(3, 0, 1, 8, gl.GL_RED, gl.GL_UNSIGNED_BYTE, column := np.zeros(8, np.uint8))
+    recording.run.save(tmp_path / "run.npz")
+    drawn = column > 0
+    assert np.flatnonzero(drawn).tolist() == [1, 2], "rows from the bottom"
+    for run in (recording.run, ss.load_run(tmp_path / "run.npz")):
+        told = [bool(run.pixel(3, 7 - row, framebuffer=name).rows) for row in range(8)]
+        assert told == drawn.tolist()
