@@ -46,6 +46,11 @@ class Format:
         return self.largest > 0 or self.encoding in ("unorm", "srgb")
 
     @property
+    def is_drawn_to(self) -> bool:
+        """Whether draws can write colours of this format: bytes, single-precision floats and half floats."""
+        return self.kind in ("unorm8", "float") and self.encoding in ("", "half")
+
+    @property
     def has_few_bits(self) -> bool:
         """Whether its colours have less than 8 bits."""
         return self.kind == "unorm8" and self.encoding != ""

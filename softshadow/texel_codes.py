@@ -153,8 +153,10 @@ def codes_of_floats(rgba: np.ndarray, format: Format, is_direct: bool) -> np.nda
 def drawn_cells(rgba: np.ndarray, format: Format) -> np.ndarray:
     """Return floats (..., 4) as the cells that Mesa's copies and mipmaps make of them, which llvmpipe draws.
 
-    It rounds to 8 or 16 bits first, and drops lower bits from these; sRGB is not encoded.
+    It rounds to 8 or 16 bits first, and drops lower bits from these; sRGB is not encoded. Halves are truncated.
     """
+    if not format.encoding:
+        return rgba
     if format.encoding == "half":
         return as_halves(rgba, truncated=True)
     whole = 16 if max(format.bits) > 8 else 8

@@ -181,8 +181,7 @@ def _is_complete(context: Context, point: int, attachment: Attachment) -> bool:
         return False
     if point in KINDS:
         return image.format.kind in KINDS[point]
-    is_drawn_to = image.format.kind in ("unorm8", "float") and not image.format.encoding and image.blocks is None
-    return is_drawn_to and image.format.base in COLOR_RENDERABLE
+    return image.format.is_drawn_to and image.blocks is None and image.format.base in COLOR_RENDERABLE
 
 
 def glCheckFramebufferStatus(target: int) -> int:

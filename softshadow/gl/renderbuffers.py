@@ -78,7 +78,8 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
         return fail(gl.GL_INVALID_ENUM, operation, f"target={token_name(target)}: expected GL_RENDERBUFFER")
     if context.renderbuffer == 0:
         return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
-    if internalformat not in FORMATS or internalformat in (1, 2, 3, 4) or FORMATS[internalformat].encoding:
+    format = FORMATS.get(internalformat)
+    if format is None or internalformat in (1, 2, 3, 4) or format.encoding not in ("", "half"):
         return fail(
             gl.GL_INVALID_ENUM,
             operation,

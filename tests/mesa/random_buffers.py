@@ -48,8 +48,8 @@ def counted(writer: Writer, wild: bool) -> None:
 
 
 # -- framebuffer objects -----------------------------------------------------------------------------------------------
-COLORS = ["GL_RGBA8", "GL_RGBA8", "GL_RGBA32F", "GL_R32F", "GL_RGB", "GL_RG8"]
-FLOAT_COLORS = ["GL_RGBA32F", "GL_RGBA32F", "GL_R32F", "GL_RG32F"]
+COLORS = ["GL_RGBA8", "GL_RGBA8", "GL_RGBA32F", "GL_R32F", "GL_RGB", "GL_RG8", "GL_RGBA16F"]
+FLOAT_COLORS = ["GL_RGBA32F", "GL_RGBA32F", "GL_R32F", "GL_RG32F", "GL_RGBA16F", "GL_RG16F"]
 DEPTHS = ["GL_DEPTH24_STENCIL8", "GL_DEPTH24_STENCIL8", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT16"]
 IMAGES = {
     "GL_DEPTH24_STENCIL8": ("GL_DEPTH_STENCIL", "GL_UNSIGNED_INT_24_8"),

@@ -54,7 +54,7 @@ def program_of(seed):
         rng = np.random.default_rng(seed)
         drawn(gl, rng, SIZE)
         depth = rng.choice([gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH24_STENCIL8, gl.GL_DEPTH_COMPONENT24])
-        color = rng.choice([gl.GL_RGBA8, gl.GL_RGBA8, gl.GL_RGBA32F, gl.GL_RGB8])
+        color = rng.choice([gl.GL_RGBA8, gl.GL_RGBA8, gl.GL_RGBA32F, gl.GL_RGB8, gl.GL_RGBA16F])
         objects = [0, framebuffer(gl, int(color), int(depth)), framebuffer(gl, gl.GL_RGBA8, int(depth))]
         for name in objects[1:]:
             gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, name)

@@ -11,7 +11,7 @@ from softshadow.testing import compare, run_on_mesa
 pytestmark = pytest.mark.mesa
 
 SIZE = (20, 16)
-FORMATS = ("GL_RGBA8", "GL_RGBA8", "GL_RGB8", "GL_R8", "GL_RGBA32F", "GL_R32F", "GL_RG8")
+FORMATS = ("GL_RGBA8", "GL_RGBA8", "GL_RGB8", "GL_R8", "GL_RGBA32F", "GL_R32F", "GL_RG8", "GL_RGBA16F")
 FACTORS = ("GL_ONE", "GL_ZERO", "GL_SRC_ALPHA", "GL_ONE_MINUS_SRC_ALPHA", "GL_DST_COLOR", "GL_DST_ALPHA")
 
 

@@ -12,7 +12,7 @@ from softshadow.testing import compare
 pytestmark = pytest.mark.mesa
 
 WIDTH, HEIGHT = 16, 9
-RENDERABLE = ["GL_RGBA8", "GL_RGB8", "GL_RG8", "GL_R8", "GL_RGBA32F", "GL_RGB32F"]
+RENDERABLE = ["GL_RGBA8", "GL_RGB8", "GL_RG8", "GL_R8", "GL_RGBA32F", "GL_RGB32F", "GL_RGBA16F"]
 INTERNAL_FORMATS = [*RENDERABLE, "GL_LUMINANCE8", "GL_LUMINANCE8_ALPHA8", "GL_ALPHA8", "GL_INTENSITY8"]
 PAIRS = [(pixel_format, kind) for kind, (_, formats) in PACKED_KINDS.items() for pixel_format in formats]
 FLOATS = np.random.default_rng(4).uniform(-0.2, 1.2, (HEIGHT, WIDTH, 4)).astype(np.float32)

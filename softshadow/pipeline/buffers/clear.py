@@ -21,6 +21,7 @@ from softshadow.pipeline.shade.blend import to_unorm8
 from softshadow.pipeline.shade.color_writes import as_pixels
 from softshadow.pixels import quantized_depth, stored_units
 from softshadow.state import State
+from softshadow.texel_codes import drawn_cells
 
 
 def clear(command: Clear, storage: Storage) -> None:
@@ -35,7 +36,7 @@ def clear(command: Clear, storage: Storage) -> None:
             image.write_later(0, _rows_of_pixels(state.color.clear, image.shape), None)
             continue
         color = np.array(state.color.clear, np.float32)
-        value = to_unorm8(color) if is_unorm8 else color
+        value = to_unorm8(color) if is_unorm8 else drawn_cells(color, image.format)
         written = np.array(state.color.mask) & np.array(image.format.written)
         if written.all() and is_unorm8:
             as_pixels(image.cells)[where] = as_pixels(value)

@@ -69,7 +69,8 @@ def shadow_map_shader(state: State, target: Framebuffer, geometry: Geometry) -> 
 def writes_one_buffer(state: State, target: Framebuffer, kind: str) -> bool:
     """Return whether a draw writes a single colour buffer of a kind, and does not blend."""
     blends = state.blend.enabled or state.blend.logic_enabled
-    return not blends and len(target.colors) == 1 and target.colors[0].format.kind == kind
+    formats = [image.format for image in target.colors]
+    return not blends and len(formats) == 1 and formats[0].kind == kind and not formats[0].encoding
 
 
 def plain_map(geometry: Geometry, name: str = "shadowMap") -> MapTexels | None:

@@ -23,8 +23,12 @@ from softshadow.pipeline.shade.blend import (
     to_unorm8,
 )
 from softshadow.state import State
+from softshadow.texel_codes import drawn_cells
 
 LARGEST_BYTE, INT32_END = np.float32(255), np.float32(2.0**31)
+SMALLEST_NORMAL_HALF, HALF_STEP = np.float32(2.0**-14), np.float32(2.0**-24)  # smaller ones are multiples of the step
+LARGEST_HALF, INFINITE = np.float32(65504), np.float32(np.inf)
+KEPT_BY_HALVES = np.int32(~0x1FFF)  # of the bits of a float
 GREEN, BLUE, UPPERMOST = np.int32(8), np.int32(16), np.int32(24)  # bits below the byte of a channel
 
 
@@ -37,13 +41,14 @@ def color_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], No
     ops, cells = blend_ops(state.blend, color.format), color.cells
     blends = state.blend.enabled or state.blend.logic_enabled
     if color.format.kind == "float":
+        is_half = color.format.encoding == "half"
 
         def write_float(spans: Spans, values: np.ndarray) -> None:
             place, colors = (spans.row, spans.left, spans.start), np.ascontiguousarray(values, np.float32)
             if blends and not state.blend.logic_enabled:
-                blend_floats(ops, *place, colors, mask, cells)
+                blend_floats(ops, *place, colors, mask, is_half, cells)
             else:
-                write_floats(*place, colors, mask, cells)
+                write_floats(*place, drawn_cells(colors, color.format), mask, cells)
 
         return write_float
     pixels, writable = as_pixels(cells), writable_bits(state, color)
@@ -170,8 +175,28 @@ def blend_bytes(ops, rows, lefts, starts, colors, mask, cells):
 
 
 @kernel
-def blend_floats(ops, rows, lefts, starts, colors, mask, cells):
-    """Blend colours (n, 4) with `cells` (H, pitch, 4) of float32 under the colour mask (4,)."""
+def blend_floats(ops, rows, lefts, starts, colors, mask, is_half, cells):
+    """Blend colours (n, 4) with `cells` (H, pitch, 4) of float32 under the colour mask (4,).
+
+    Where they stand for half floats, each result is truncated, as in llvmpipe.
+    """
     for r in range(rows.shape[0]):
         for n in range(starts[r], starts[r + 1]):
-            blend_float_fragment(ops, colors[n], mask, cells[rows[r], lefts[r] + n - starts[r]])
+            target = cells[rows[r], lefts[r] + n - starts[r]]
+            blend_float_fragment(ops, colors[n], mask, target)
+            if is_half:
+                for c in range(4):
+                    target[c] = truncated_to_half(target[c])
+
+
+@kernel
+def truncated_to_half(value):
+    """Return a float32 with the precision of a half float, as `texel_codes.as_halves`."""
+    size = abs(value)
+    if size < SMALLEST_NORMAL_HALF:
+        return np.trunc(value / HALF_STEP) * HALF_STEP
+    if LARGEST_HALF < size < INFINITE:
+        return LARGEST_HALF if value > ZERO else -LARGEST_HALF
+    if not size <= INFINITE:  # NaN, whose bits stay
+        return value
+    return np.int32(np.float32(value).view(np.int32) & KEPT_BY_HALVES).view(np.float32)
