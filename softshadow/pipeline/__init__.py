@@ -26,6 +26,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.choose import (
     MANY_TRIANGLES,
+    ONE_BY_ONE,
     choose_fill,
     choose_forward,
     choose_geometry,
@@ -188,6 +189,8 @@ def _draw_in_order(
             return
     if not is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
+    if plan.one_by_one and _draw_one_by_one(plan, command, target, storage, geometry):
+        return
     fragments = fragments_in(geometry, region)
     colors = shade(geometry, spans_of(fragments)) if tests_alpha(state) else None
     depth, stencil = buffer_cells(target, real)
@@ -244,6 +247,23 @@ def _shade_without_overlaps(plan: Plan, command: Draw, target: Framebuffer, geom
     if spans is None:
         return False
     choose_shading(plan, command.state, target, geometry)(spans)
+    return True
+
+
+def _draw_one_by_one(plan: Plan, command: Draw, target: Framebuffer, storage: Storage, geometry: Geometry) -> bool:
+    """Draw large triangles like opaque ones, one after the other; return whether they are large.
+
+    A triangle has one fragment for each pixel, which needs no list.
+    """
+    triangles = geometry.triangles
+    n_triangles, fragments = len(triangles.ids), covered(triangles, region_of(command.state, target))[1]
+    if fragments < ONE_BY_ONE * n_triangles:
+        return False
+    for n in range(n_triangles):
+        one = geometry._replace(triangles=Setup(*[array[n : n + 1] for array in triangles]))
+        _draw_opaque(plan, command, target, storage, one, None)
+    plan.path.way = "opaque"
+    plan.path.note("large triangles are drawn one by one: none overlaps itself")
     return True
 
 

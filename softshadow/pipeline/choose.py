@@ -58,6 +58,7 @@ LARGE_TRIANGLE, FEW_LAYERS = 80, 1.3
 LARGE_PLAIN_TRIANGLE, FEW_PLAIN_LAYERS = 250, 3.0
 # draws of so many triangles are cheaper to fill, shading each visible pixel once, than to draw triangle by triangle
 MANY_TRIANGLES = 4096
+ONE_BY_ONE = 8_000  # fragments of a triangle, from which a fill of its own takes less time than a list of fragments
 LARGE_DRAW = 50_000  # fragments of a draw that counts as such when the kernels of the fixed function are to be compiled
 SMALL_DRAW = 25  # what any other draw counts: ten thousand of them are some seconds, which compiling takes, too
 LAYERS = 4  # of fragments over each other, from which bands pay on one thread, too

@@ -95,7 +95,7 @@ class Plan(NamedTuple):
     earlier draws, without_overlaps finds out whether blended fragments overlap; watch: begun before a draw that makes
     no depth larger; show_rectangle copies texels to pixels; in_chunks: whether some triangles are set up and filled at
     a time; forward: whether the draw may go triangle by triangle from coverage to pixels, for which `numbers` keeps
-    what is computed from its state.
+    what is computed from its state; one_by_one: whether large triangles that overlap may each be drawn as opaque ones.
     """
 
     in_order: bool
@@ -112,6 +112,7 @@ class Plan(NamedTuple):
     watch: Callable[[Framebuffer, Storage], Watch] | None = None
     show_rectangle: Callable[[Draw, Framebuffer, Storage], None] | None = None
     forward: bool = False
+    one_by_one: bool = False
     counting: bool = False
 
 
@@ -150,9 +151,10 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
         return plan._replace(show_rectangle=show_rectangle)
     plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
     if in_order:
-        if writes_color and not tests_alpha(state) and keeps_depth_and_stencil(front, back):
+        reads_no_alpha = writes_color and not tests_alpha(state)
+        if reads_no_alpha and keeps_depth_and_stencil(front, back):
             plan = plan._replace(without_overlaps=triangles_without_overlaps, passing_spans=passing_spans)
-        return plan._replace(forward=True)
+        return plan._replace(forward=True, one_by_one=reads_no_alpha)
     if writes_no_colors(command, target):
         path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
         return plan._replace(in_chunks=True)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from draws import ADDING, MIXING, same_window, surface_blended_twice
 from softshadow import tokens as gl
 from softshadow.context import Context
+from softshadow.image import FORMATS
 from softshadow.pipeline import set_threads, threads
 from softshadow.pipeline.shade import blend, color_writes, shading
 
@@ -35,3 +36,21 @@ def test_bytes_are_added_as_the_blend_equation_adds_them():
         color_writes.blend_bytes(state, *span, source, np.ones(4, bool), expected)
         color_writes.add_bytes(*span, source.reshape(-1), added.reshape(1, -1))
         assert np.array_equal(added, expected)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("is_half", [False, True])
+def test_floats_are_added_as_the_blend_equation_adds_them(is_half):
+    rng = np.random.default_rng(0)
+    source, target = rng.normal(0, 3, (4, 300)).astype(np.float32), rng.normal(0, 3, (2, 200, 4)).astype(np.float32)
+    target[0, :7, 0] = -0.0, np.inf, -np.inf, np.nan, 65504, 1e-6, 0.0
+    target = color_writes.halves_of(target.reshape(1, -1)).reshape(target.shape) if is_half else target
+    spans = np.array([0, 1, 1], np.int32), np.array([3, 0, 50], np.int32), np.array([0, 100, 200, 300])
+    state = blend.blend_ops(ADDING, FORMATS[gl.GL_RGBA32F])
+    assert color_writes.is_additive(state)
+    for mask in ([True] * 4, [True, False, True, False]):
+        expected, added = target.copy(), target.copy()
+        with np.errstate(all="ignore"):
+            color_writes.blend_floats(state, *spans, source, np.array(mask), is_half, expected)
+            color_writes.add_floats(*spans, source, np.array(mask), is_half, added)
+        assert added.tobytes() == expected.tobytes()
