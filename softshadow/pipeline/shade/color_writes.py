@@ -11,7 +11,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import inlined, kernel
-from softshadow.pipeline.constants import ZERO
+from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.records import Spans
 from softshadow.pipeline.shade.blend import (
     ALPHA,
@@ -67,8 +67,8 @@ def _float_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], N
         place, columns = (spans.row, spans.left, spans.start), np.ascontiguousarray(values.T, np.float32)
         if not blends:
             write_floats(*place, halves_of(columns) if is_half else columns, mask, cells)
-        elif is_additive(ops):
-            add_floats(*place, columns, mask, is_half, cells)
+        elif is_weighted_sum(ops):
+            add_weighted(*place, columns, mask, ops.src_rgb != gl.GL_ONE, ops.dst_rgb != gl.GL_ONE, is_half, cells)
         else:
             blend_floats(ops, *place, columns, mask, is_half, cells)
 
@@ -205,15 +205,30 @@ def blend_floats(ops, rows, lefts, starts, columns, mask, is_half, cells):
                     target[c] = truncated_to_half(target[c])
 
 
+def is_weighted_sum(ops: BlendOps) -> bool:
+    """Return whether blending adds source and target, each as it is or weighted by the source's alpha.
+
+    The source's weight is 1 or alpha, the target's 1 or 1 - alpha.
+    """
+    source, target = (ops.src_rgb, ops.src_alpha), (ops.dst_rgb, ops.dst_alpha)
+    sums = (ops.equation_rgb, ops.equation_alpha) == (gl.GL_FUNC_ADD,) * 2 and not ops.logic_op
+    of_source = source in ((gl.GL_ONE,) * 2, (gl.GL_SRC_ALPHA,) * 2)
+    return (
+        sums and of_source and target in ((gl.GL_ONE,) * 2, (gl.GL_ONE_MINUS_SRC_ALPHA,) * 2) and not ops.single_channel
+    )
+
+
 @kernel
-def add_floats(rows, lefts, starts, columns, mask, is_half, cells):
-    """Add colours (4, n) to `cells` (H, pitch, 4); equal to `blend_floats` where blending is a sum."""
+def add_weighted(rows, lefts, starts, columns, mask, weighs_source, weighs_target, is_half, cells):
+    """Add colours (4, n) to `cells` (H, pitch, 4), weighted or not; equal to `blend_floats` for `is_weighted_sum`."""
     for r in range(rows.shape[0]):
         row, left = rows[r], lefts[r] - starts[r]
         for c in range(4):
             if mask[c]:
                 for n in range(starts[r], starts[r + 1]):
-                    total = columns[c, n] + cells[row, left + n, c]
+                    alpha = columns[ALPHA, n]
+                    source = columns[c, n] * (alpha if weighs_source else ONE)
+                    total = source + cells[row, left + n, c] * (ONE - alpha if weighs_target else ONE)
                     cells[row, left + n, c] = truncated_to_half(total) if is_half else total
 
 

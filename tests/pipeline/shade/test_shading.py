@@ -1,5 +1,7 @@
 """Shading in chunks gives the same bits as shading all fragments at once."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -40,17 +42,39 @@ def test_bytes_are_added_as_the_blend_equation_adds_them():
 
 @pytest.mark.interpreted
 @pytest.mark.parametrize("is_half", [False, True])
-def test_floats_are_added_as_the_blend_equation_adds_them(is_half):
+@pytest.mark.parametrize("source_factor", [gl.GL_ONE, gl.GL_SRC_ALPHA])
+@pytest.mark.parametrize("target_factor", [gl.GL_ONE, gl.GL_ONE_MINUS_SRC_ALPHA])
+def test_weighted_floats_are_added_as_the_blend_equation_adds_them(source_factor, target_factor, is_half):
     rng = np.random.default_rng(0)
     source, target = rng.normal(0, 3, (4, 300)).astype(np.float32), rng.normal(0, 3, (2, 200, 4)).astype(np.float32)
     target[0, :7, 0] = -0.0, np.inf, -np.inf, np.nan, 65504, 1e-6, 0.0
     target = color_writes.halves_of(target.reshape(1, -1)).reshape(target.shape) if is_half else target
     spans = np.array([0, 1, 1], np.int32), np.array([3, 0, 50], np.int32), np.array([0, 100, 200, 300])
-    state = blend.blend_ops(ADDING, FORMATS[gl.GL_RGBA32F])
-    assert color_writes.is_additive(state)
+    factors = {
+        "src_rgb": source_factor,
+        "src_alpha": source_factor,
+        "dst_rgb": target_factor,
+        "dst_alpha": target_factor,
+    }
+    state = blend.blend_ops(replace(ADDING, **factors), FORMATS[gl.GL_RGBA32F])
+    assert color_writes.is_weighted_sum(state)
+    weighs = source_factor != gl.GL_ONE, target_factor != gl.GL_ONE
     for mask in ([True] * 4, [True, False, True, False]):
         expected, added = target.copy(), target.copy()
         with np.errstate(all="ignore"):
             color_writes.blend_floats(state, *spans, source, np.array(mask), is_half, expected)
-            color_writes.add_floats(*spans, source, np.array(mask), is_half, added)
+            color_writes.add_weighted(*spans, source, np.array(mask), *weighs, is_half, added)
         assert added.tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"src_rgb": gl.GL_DST_ALPHA}, {"dst_rgb": gl.GL_SRC_ALPHA}, {"src_alpha": gl.GL_SRC_ALPHA},
+        {"dst_alpha": gl.GL_ONE_MINUS_SRC_ALPHA}, {"equation_rgb": gl.GL_FUNC_SUBTRACT}, {"equation_alpha": gl.GL_MAX},
+    ],
+)  # fmt: skip
+def test_other_blending_is_no_weighted_sum(changed):
+    assert color_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_RGBA32F]))
+    assert not color_writes.is_weighted_sum(blend.blend_ops(replace(ADDING, **changed), FORMATS[gl.GL_RGBA32F]))
+    assert not color_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_R32F]))
