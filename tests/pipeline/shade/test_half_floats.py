@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softshadow.pipeline.shade.color_writes import halves_of
+from softshadow.pipeline.shade.float_writes import halves_of
 from softshadow.texel_codes import as_halves
 
 COUNT = 20_000

@@ -12,7 +12,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.image import FORMATS
 from softshadow.pipeline import set_threads, threads
-from softshadow.pipeline.shade import blend, color_writes, shading
+from softshadow.pipeline.shade import blend, color_writes, float_writes, shading
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([gl.GL_LEQUAL, gl.GL_ALWAYS]), st.sampled_from([1, 3]))
@@ -48,7 +48,7 @@ def test_weighted_floats_are_added_as_the_blend_equation_adds_them(source_factor
     rng = np.random.default_rng(0)
     source, target = rng.normal(0, 3, (4, 300)).astype(np.float32), rng.normal(0, 3, (2, 200, 4)).astype(np.float32)
     target[0, :7, 0] = -0.0, np.inf, -np.inf, np.nan, 65504, 1e-6, 0.0
-    target = color_writes.halves_of(target.reshape(1, -1)).reshape(target.shape) if is_half else target
+    target = float_writes.halves_of(target.reshape(1, -1)).reshape(target.shape) if is_half else target
     spans = np.array([0, 1, 1], np.int32), np.array([3, 0, 50], np.int32), np.array([0, 100, 200, 300])
     factors = {
         "src_rgb": source_factor,
@@ -57,13 +57,13 @@ def test_weighted_floats_are_added_as_the_blend_equation_adds_them(source_factor
         "dst_alpha": target_factor,
     }
     state = blend.blend_ops(replace(ADDING, **factors), FORMATS[gl.GL_RGBA32F])
-    assert color_writes.is_weighted_sum(state)
+    assert float_writes.is_weighted_sum(state)
     weighs = source_factor != gl.GL_ONE, target_factor != gl.GL_ONE
     for mask in ([True] * 4, [True, False, True, False]):
         expected, added = target.copy(), target.copy()
         with np.errstate(all="ignore"):
-            color_writes.blend_floats(state, *spans, source, np.array(mask), is_half, expected)
-            color_writes.add_weighted(*spans, source, np.array(mask), *weighs, is_half, added)
+            float_writes.blend_floats(state, *spans, source, np.array(mask), is_half, expected)
+            float_writes.add_weighted(*spans, source, np.array(mask), *weighs, is_half, added)
         assert added.tobytes() == expected.tobytes()
 
 
@@ -75,6 +75,6 @@ def test_weighted_floats_are_added_as_the_blend_equation_adds_them(source_factor
     ],
 )  # fmt: skip
 def test_other_blending_is_no_weighted_sum(changed):
-    assert color_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_RGBA32F]))
-    assert not color_writes.is_weighted_sum(blend.blend_ops(replace(ADDING, **changed), FORMATS[gl.GL_RGBA32F]))
-    assert not color_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_R32F]))
+    assert float_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_RGBA32F]))
+    assert not float_writes.is_weighted_sum(blend.blend_ops(replace(ADDING, **changed), FORMATS[gl.GL_RGBA32F]))
+    assert not float_writes.is_weighted_sum(blend.blend_ops(ADDING, FORMATS[gl.GL_R32F]))
