@@ -19,6 +19,7 @@ from softshadow import tokens as gl
 _writing = Lock()
 BLOCK_SIDE = 4  # texels of a block of a compressed image, in both directions
 PITCH = 32  # rows are padded to whole chunks of 32 pixels: kernels may write past the width, but not into the next row
+DRAWN_ENCODINGS = ("", "half")  # of colours that draws can write, see `Format`
 CROWDED = 1024  # pixels: of rows that are multiples of it, the same columns lie in the same few lines of a cache
 
 
@@ -48,7 +49,7 @@ class Format:
     @property
     def is_drawn_to(self) -> bool:
         """Whether draws can write colours of this format: bytes, single-precision floats and half floats."""
-        return self.kind in ("unorm8", "float") and self.encoding in ("", "half")
+        return self.kind in ("unorm8", "float") and self.encoding in DRAWN_ENCODINGS
 
     @property
     def has_few_bits(self) -> bool:

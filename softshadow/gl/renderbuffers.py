@@ -13,7 +13,7 @@ from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import attach, attachment_problem, bound_framebuffer, target_problem
 from softshadow.gl.names import generate, names_argument, reserve
 from softshadow.gl.texture_queries import channel_bits
-from softshadow.image import FORMATS, WITH_STENCIL, storage_format
+from softshadow.image import DRAWN_ENCODINGS, FORMATS, WITH_STENCIL, storage_format
 from softshadow.pipeline.commands import AttachRenderbuffer, DefineRenderbuffer, DeleteRenderbuffers
 from softshadow.tokens import token_name
 
@@ -79,7 +79,7 @@ def glRenderbufferStorage(target: int, internalformat: int, width: int, height: 
     if context.renderbuffer == 0:
         return fail(gl.GL_INVALID_OPERATION, operation, "no renderbuffer is bound")
     format = FORMATS.get(internalformat)
-    if format is None or internalformat in (1, 2, 3, 4) or format.encoding not in ("", "half"):
+    if format is None or internalformat in (1, 2, 3, 4) or format.encoding not in DRAWN_ENCODINGS:
         return fail(
             gl.GL_INVALID_ENUM,
             operation,

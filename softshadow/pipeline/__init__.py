@@ -181,15 +181,16 @@ def _draw_in_order(
     is_mesh = len(triangles.ids) >= MANY_TRIANGLES
     if is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
+    rows, n_fragments = covered(triangles, region)
     if plan.forward:
-        rows, n_fragments = covered(triangles, region)
         forward = choose_forward(plan, state, target, geometry, rows, n_fragments)
         if forward:
             _count_passed(forward(), counts)
             return
     if not is_mesh and _shade_without_overlaps(plan, command, target, geometry):
         return
-    if plan.one_by_one and _draw_one_by_one(plan, command, target, storage, geometry):
+    if plan.one_by_one and n_fragments >= ONE_BY_ONE * len(triangles.ids):
+        _draw_one_by_one(plan, command, target, storage, geometry)
         return
     fragments = fragments_in(geometry, region)
     colors = shade(geometry, spans_of(fragments)) if tests_alpha(state) else None
@@ -250,21 +251,13 @@ def _shade_without_overlaps(plan: Plan, command: Draw, target: Framebuffer, geom
     return True
 
 
-def _draw_one_by_one(plan: Plan, command: Draw, target: Framebuffer, storage: Storage, geometry: Geometry) -> bool:
-    """Draw large triangles like opaque ones, one after the other; return whether they are large.
-
-    A triangle has one fragment for each pixel, which needs no list.
-    """
-    triangles = geometry.triangles
-    n_triangles, fragments = len(triangles.ids), covered(triangles, region_of(command.state, target))[1]
-    if fragments < ONE_BY_ONE * n_triangles:
-        return False
-    for n in range(n_triangles):
-        one = geometry._replace(triangles=Setup(*[array[n : n + 1] for array in triangles]))
+def _draw_one_by_one(plan: Plan, command: Draw, target: Framebuffer, storage: Storage, geometry: Geometry) -> None:
+    """Draw triangles like opaque ones, one after the other: each has one fragment for a pixel, which needs no list."""
+    for n in range(len(geometry.triangles.ids)):
+        one = geometry._replace(triangles=Setup(*[array[n : n + 1] for array in geometry.triangles]))
         _draw_opaque(plan, command, target, storage, one, None)
     plan.path.way = "opaque"
     plan.path.note("large triangles are drawn one by one: none overlaps itself")
-    return True
 
 
 def _spans_without_overlaps(

@@ -151,10 +151,10 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
         return plan._replace(show_rectangle=show_rectangle)
     plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
     if in_order:
-        reads_no_alpha = writes_color and not tests_alpha(state)
-        if reads_no_alpha and keeps_depth_and_stencil(front, back):
+        only_writes_color = writes_color and not tests_alpha(state)
+        if only_writes_color and keeps_depth_and_stencil(front, back):
             plan = plan._replace(without_overlaps=triangles_without_overlaps, passing_spans=passing_spans)
-        return plan._replace(forward=True, one_by_one=reads_no_alpha)
+        return plan._replace(forward=True, one_by_one=only_writes_color)
     if writes_no_colors(command, target):
         path.way, path.reasons = "depth and stencil only, in chunks", ["no colour is written or tested"]
         return plan._replace(in_chunks=True)
