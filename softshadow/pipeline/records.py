@@ -6,6 +6,7 @@ In the order of the pipeline: triangles in the window (`Setup`, `Geometry`), whe
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -196,9 +197,14 @@ class Spans(NamedTuple):
 
         A span begins in the time that so many fragments take.
         """
-        work = self.start + beginning * np.arange(len(self.start))
-        cuts = np.searchsorted(work, work[-1] * np.arange(1, n_parts) // n_parts).tolist()
-        return [(first, end) for first, end in pairwise([0, *cuts, len(self.row)]) if first < end]
+        n_spans = len(self.row)
+
+        def work(n: int) -> int:
+            return int(self.start[n]) + beginning * n
+
+        total = work(n_spans)
+        cuts = [bisect_left(range(n_spans), total * part // n_parts, key=work) for part in range(1, n_parts)]
+        return [(first, end) for first, end in pairwise([0, *cuts, n_spans]) if first < end]
 
     def chunks(self, size: int) -> np.ndarray:
         """Return where to cut (C + 1,), so that each part has about `size` fragments."""

@@ -10,6 +10,7 @@ store, for which AMD processors take a dozen cycles. So each loop first stores s
 depths are equal, as a maximum, or which fragments pass, which is not read afterwards.
 """
 
+import threading
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,7 @@ from softshadow.pipeline.fast.fragment_numbers import (
     updated,
 )  # fmt: skip
 from softshadow.pipeline.fast.small_triangles import small_fill_for
+from softshadow.pipeline.memory.scratch import apart
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
@@ -83,14 +85,29 @@ def any_state_kernel(writes_ids: int, ties: list[int] | None = None) -> FillKern
     return fill_kernel
 
 
+class _FillMemory(threading.local):
+    """The scratch arrays of fills, for each thread."""
+
+    def __init__(self) -> None:
+        self.columns, self.rows, self.ties = apart(CHUNK, np.uint8), apart((2, 1), np.int32), apart(CHUNK, np.int32)
+        self.box = apart(CHUNK, np.uint8)
+
+
+_memory = _FillMemory()
+
+
 def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
-    """Return the scratch arrays of a fill, its last five arguments.
+    """Return the scratch arrays of a fill, its last five arguments; the next fill of this thread uses the same.
 
     The last one is not 0 after the fill where a fragment has the stored depth; with ids and without stencil test only.
     """
-    lefts, rights = np.empty((2, region.end_row), np.int32)
-    bytes_of_row, bytes_of_box = np.empty(max(pitch, CHUNK), np.uint8), np.empty(CHUNK, np.uint8)
-    return lefts, rights, bytes_of_row, bytes_of_box, np.zeros(CHUNK, np.int32)
+    memory = _memory
+    if len(memory.columns) < pitch:
+        memory.columns = apart(pitch, np.uint8)
+    if memory.rows.shape[1] < region.end_row:
+        memory.rows = apart((2, region.end_row), np.int32)
+    memory.ties.fill(0)
+    return memory.rows[0], memory.rows[1], memory.columns, memory.box, memory.ties
 
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:

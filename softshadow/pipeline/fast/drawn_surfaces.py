@@ -29,7 +29,7 @@ from softshadow.pipeline.fast.fragment_numbers import (
 )
 from softshadow.pipeline.fast.visibility_cache import VisibilityCache
 from softshadow.pipeline.memory.comparison import same_bits
-from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.scratch import apart, scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.fragment_ops import EQUAL, LEQUAL, LESS, NEVER, FragmentOps
 from softshadow.pipeline.records import DepthRange, Region, Setup, Spans
@@ -202,7 +202,7 @@ def _tested(
         start = scratch(most + 1, np.int64)
         count = collect_passing(
             *part, int(tests_depth), int(tests_stencil), *numbers_of(front, back), front.depth_largest,
-            triangles.depth, triangles.front, depth_range, region, depth, stencil, np.empty(BLOCK, np.uint8), row, left,
+            triangles.depth, triangles.front, depth_range, region, depth, stencil, apart(BLOCK, np.uint8), row, left,
             triangle, start,
         )  # fmt: skip
         return Spans(row[:count], left[:count], triangle[:count], start[: count + 1])

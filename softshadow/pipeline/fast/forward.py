@@ -23,7 +23,7 @@ from softshadow.pipeline.fast.segment_tables import (
     padded_textures,
     texels_of_units,
 )
-from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.scratch import apart, scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS, rows_of_few_bands, triangles_in_bands
 from softshadow.pipeline.raster.region import depth_range_of
@@ -160,11 +160,12 @@ def draw_rows(
 
     Return how many fragments of each have passed the tests before shading, (S,) int64.
     """
-    passed = np.zeros(len(segments.table), np.int64)
+    passed = apart(len(segments.table), np.int64)
+    passed.fill(0)
     draw_segments(
         segments.table, segments.ranges, order, first_row, end_row, segments.region.downwards, triangles.corners,
         triangles.depth, triangles.front, planes, in_order, segments.flats, *segments.states, segments.textures,
-        segments.pixels, segments.depth, segments.stencil, passed, *_lists.spans, *np.empty((2, end_row), np.int32),
+        segments.pixels, segments.depth, segments.stencil, passed, *_lists.spans, *apart((2, end_row), np.int32),
         *block_memory.arrays,
     )  # fmt: skip
     return passed

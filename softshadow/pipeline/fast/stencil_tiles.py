@@ -53,7 +53,7 @@ from softshadow.pipeline.fast.pending_updates import (
     count_rows,
 )  # fmt: skip
 from softshadow.pipeline.fast.small_triangles import columns_of, is_small, small_fill_for
-from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.memory.scratch import apart, scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
@@ -100,12 +100,12 @@ def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
         buffers: FillBuffers,
     ) -> None:
         bounds, rows = _bounds_of(depth_image, buffers), slice(region.first_row, region.end_row)
-        room = np.empty((threads(), 3, COLUMNS), buffers.depth.dtype)
+        rooms = [apart((3, COLUMNS), buffers.depth.dtype) for _ in range(threads())]
         tile_rows = range(region.first_row >> ROWS_LOG2, ((region.end_row - 1) >> ROWS_LOG2) + 1)
 
         def complete(n: int) -> None:  # each n has rows of its own
             for tile_row in tile_rows[n :: threads()]:
-                complete_bounds(buffers.depth, tile_row, region, *bounds, room[n])
+                complete_bounds(buffers.depth, tile_row, region, *bounds, rooms[n])
 
         n_pixels = (region.end_row - region.first_row) * buffers.depth.shape[1]
         share(complete, threads(), n_pixels >= WORTH_SHARING)
@@ -138,9 +138,8 @@ def _fill_chunks(
 ) -> None:  # fmt: skip
     """Fill triangles, a chunk of their numbers after the other, and apply what is pending after the last."""
     depth, pending = buffers.depth, PendingUpdates.none(region)
-    room = np.empty((3, COLUMNS), depth.dtype)
-    passed = np.empty(ROWS * COLUMNS, np.uint8)
-    lefts, rights = np.empty((2, region.end_row), np.int32)
+    room, passed = apart((3, COLUMNS), depth.dtype), apart(ROWS * COLUMNS, np.uint8)
+    lefts, rights = apart((2, region.end_row), np.int32)
     pitch = min(depth.shape[1], stencil.shape[1])
     for chunk in chunks:
         fill_in_tiles(

@@ -13,6 +13,7 @@ import numpy as np
 
 SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
 LARGEST_NUMBER = 16  # bytes of any dtype here
+LINE = 128  # bytes; two cache lines, which processors fetch together
 POOLED = 128 << 20  # bytes in the pool of each thread that draws
 _unused = deque([np.empty(0, np.uint8)])
 UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the deque, and this call
@@ -53,6 +54,16 @@ def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndar
     _make_room(whole)
     blocks.appendleft(np.empty(whole, np.uint8))
     return np.ndarray(shape, kind, blocks[0])
+
+
+def apart(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
+    """Return an uninitialised small array, like ``np.empty``, in cache lines that hold nothing else.
+
+    For what a kernel writes again and again: if another thread uses the same cache line, each write waits for its core.
+    Small arrays lie side by side, and NumPy gives a thread the memory of those that another one has released.
+    """
+    kind, numbers = np.dtype(dtype), math.prod(shape) if isinstance(shape, tuple) else shape
+    return np.ndarray(shape, kind, np.empty(numbers * kind.itemsize + 2 * LINE, np.uint8), LINE)
 
 
 def _make_room(size: int) -> None:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.jit import inlined, kernel
+from softshadow.pipeline.memory.scratch import apart
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds
 from softshadow.pipeline.records import Region
@@ -87,16 +88,18 @@ def sort_into_bands(
 ) -> Bins:
     """Return the bins of the triangles in `parts`, their first and end numbers in order, for the bands of a region."""
     base, end, bands = parts[0][0], parts[-1][1], bands_of(region, band_rows)
-    band_ranges, marks = np.empty((end - base, 2), np.uint16), np.zeros((len(parts), 2, bands + 1), np.int64)
+    band_ranges, marks = np.empty((end - base, 2), np.uint16), [apart((2, bands + 1), np.int64) for _ in parts]
     rows = region, first_row_of_bands(region), band_rows
     share(lambda n: write_band_ranges(corners, *parts[n], *rows, base, band_ranges, marks[n]), len(parts))
-    counts = np.cumsum(marks[:, 0] - marks[:, 1], axis=1)[:, :-1]
+    counts = np.cumsum([begun - ended for begun, ended in marks], axis=1)[:, :-1]
     # sums over bands, and in a band over parts: so a band keeps the drawing order
     end_places = np.cumsum(counts.T).reshape(counts.T.shape).T
-    first_places = np.ascontiguousarray(end_places - counts)
-    starts = np.append(first_places[0], end_places[-1, -1])
+    places = [apart(bands, np.int64) for _ in parts]
+    for own, first_places in zip(places, end_places - counts, strict=True):
+        own[:] = first_places
+    starts = np.append(places[0], end_places[-1, -1])
     numbers = np.empty(starts[-1], np.int32)
-    share(lambda n: write_numbers(*parts[n], base, band_ranges, first_places[n], numbers), len(parts))
+    share(lambda n: write_numbers(*parts[n], base, band_ranges, places[n], numbers), len(parts))
     return Bins(starts, numbers)
 
 
@@ -117,6 +120,7 @@ def write_band_ranges(corners, begin, end, region, first_row, band_rows, base, b
     marks (2, bands + 1): how many triangles begin with a band, and how many end before it. So no loop over the bands of
     a triangle is needed; most triangles meet one band.
     """
+    marks[:] = 0
     for number in range(begin, end):
         t = np.uint64(number)  # unsigned: no wrap-around of negative indices is compiled in
         first_band, end_band = band_range(corners, t, region, first_row, band_rows)
