@@ -45,14 +45,6 @@ def vertex_color_uses(units: Sequence[tuple[TextureUnit, int]]) -> ColorUses:
     return ColorUses(bool(needed), by_name)
 
 
-def reads_primary_color(setting: TextureUnit) -> bool:
-    """Return whether a unit combines its texture with GL_PRIMARY_COLOR."""
-    if setting.env_mode != gl.GL_COMBINE:
-        return False
-    inputs = [*_combine_inputs(setting.combine, RGB), *_combine_inputs(setting.combine, ALPHA)]
-    return any(source == gl.GL_PRIMARY_COLOR for source, _ in inputs)
-
-
 def _combine_inputs(combine: Combine, part: str) -> list[tuple[int, str]]:
     """Return the inputs of GL_COMBINE for one part of its result: pairs of a source and the part it uses."""
     if part == ALPHA and combine.mode_rgb != gl.GL_DOT3_RGBA:

@@ -33,6 +33,7 @@ class Program:
 
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
+        self.environment = np.random.default_rng([seed, 1])  # of its own: seeds of examples keep their programs
         self.mode = self.one_of(*MODES)
 
     def draw(self, states: int = 3, draws: int = 5, *, changes_tests: bool = False) -> Context:
@@ -175,6 +176,18 @@ class Program:
             gl.glTexGeni(coordinate, gl.GL_TEXTURE_GEN_MODE, self.one_of(gl.GL_OBJECT_LINEAR, gl.GL_EYE_LINEAR, *maps))
             gl.glTexGenfv(coordinate, gl.GL_EYE_PLANE, self.numbers(4))
             gl.glTexGenfv(coordinate, gl.GL_OBJECT_PLANE, self.numbers(4))
+        self.set_environment()
+
+    def set_environment(self) -> None:
+        """Set the texture function; half of the combinations read the primary colour."""
+        choose = self.environment.choice
+        modes = gl.GL_MODULATE, gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_COMBINE, gl.GL_COMBINE
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, int(choose(modes)))
+        for function in (gl.GL_COMBINE_RGB, gl.GL_COMBINE_ALPHA):
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, function, int(choose((gl.GL_MODULATE, gl.GL_ADD_SIGNED, gl.GL_REPLACE))))
+        for source in (gl.GL_SRC0_RGB, gl.GL_SRC1_RGB, gl.GL_SRC0_ALPHA, gl.GL_SRC1_ALPHA):
+            sources = gl.GL_TEXTURE, gl.GL_PREVIOUS, gl.GL_PRIMARY_COLOR, gl.GL_CONSTANT
+            gl.glTexEnvi(gl.GL_TEXTURE_ENV, source, int(choose(sources)))
 
     def set_matrices(self) -> None:
         if self.chance(0.7):
@@ -299,6 +312,38 @@ def test_sprites_replace_the_coordinates_of_all_primitives(mode):
                 gl.glTexCoord2f(x, y)
                 gl.glVertex2f(x + n % 2, y + n // 2)
             gl.glEnd()
+        gl.glFinish()
+        return context
+
+    with use_short_cuts(False):
+        expected = draw()
+    assert same_buffers(draw(), expected)
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("shade_model", [gl.GL_FLAT, gl.GL_SMOOTH])
+@pytest.mark.parametrize("varies", [False, True])
+def test_a_combined_primary_color_is_interpolated_and_decides_how_quads_are_cut(shade_model, varies):
+    def draw() -> Context:
+        rng = np.random.default_rng(4)
+        context = gl.create_context(SIZE, SIZE)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        texels = rng.integers(0, 256, (8, 8, 4), np.uint8)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 8, 8, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_TEXTURE_ENV_MODE, gl.GL_COMBINE)
+        gl.glTexEnvi(gl.GL_TEXTURE_ENV, gl.GL_SRC1_RGB, gl.GL_PRIMARY_COLOR)
+        gl.glShadeModel(shade_model)
+        gl.glColor4f(0.9, 0.3, 0.6, 1.2)
+        for x in (-1, 0):
+            gl.glBegin(gl.GL_QUADS)
+            for across, up in ((0, -1), (1, -1), (1, 1), (0, 1)):
+                if varies:
+                    gl.glColor4f(*rng.random(4))
+                gl.glTexCoord2f(*rng.random(2))
+                gl.glVertex3f(x + across, up, rng.uniform(-1, 1))
+            gl.glEnd()
+            gl.glTranslatef(0, 0.1, 0)
         gl.glFinish()
         return context
 

@@ -387,7 +387,8 @@ def _named_vertices(draw: Draw) -> int:
 def _flat_columns(run: Run) -> np.ndarray:
     """Return which columns of the varyings are not interpolated (`programs.fixed_function.process_vertices`)."""
     lighting, n_color = run.state.lighting, 7 if run.lit and has_secondary(run.state) else 4
-    flat = np.zeros(n_color + 4 * len(run.units) + int(run.writes_color and run.state.fog.enabled), bool)
+    others = int(run.writes_color and run.state.fog.enabled) + 4 * run.repeats_primary
+    flat = np.zeros(n_color + 4 * len(run.units) + others, bool)
     one_color = not lighting.enabled and not run.arrays.color
     flat[:n_color] = lighting.shade_model == gl.GL_FLAT or one_color
     for n, unit in enumerate(run.units):
@@ -395,4 +396,6 @@ def _flat_columns(run: Run) -> np.ndarray:
         is_constant = not run.arrays.texcoords[n] and run.arrays.identities[n] and not generates
         is_constant = is_constant and not is_replaced(run.state, unit.index)
         flat[n_color + 4 * n : n_color + 4 * n + 4] = is_constant
+    if run.repeats_primary:
+        flat[-4:] = lighting.shade_model == gl.GL_FLAT
     return flat

@@ -36,10 +36,16 @@ from softshadow.pipeline.geometry.vertex import to_clip
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import LAST_NINE, TRIANGLE, start_of_last_nine
-from softshadow.programs.fixed_function import Unit, has_secondary, is_replaced, needs_vertex_color, units_in_use
+from softshadow.programs.fixed_function import (
+    Unit,
+    has_secondary,
+    is_replaced,
+    needs_vertex_color,
+    repeats_primary,
+    units_in_use,
+)
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
-from softshadow.programs.vertex_color_use import reads_primary_color
 from softshadow.state import ClipPlanes, Lighting, Points, Polygon, State
 
 GENERATED = {
@@ -83,6 +89,7 @@ class Run:
     state : State            of the first draw; the others differ at most in what `DIFFERENT` names
     command : Draw           the first draw
     units : the texture units in use
+    repeats_primary : bool   the primary colour is among the varyings twice
     writes_color : bool      else no colours are computed
     arrays : Arrays          of all draws
     unfilled : bool          polygons are stippled, or drawn as their edges or corners (glPolygonMode)
@@ -96,6 +103,7 @@ class Run:
         bound = bound_textures(command, storage) if writes_color else {}
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self._unit_numbers = [unit.index for unit in self.units]
+        self.repeats_primary = writes_color and repeats_primary(self.state, self.units)
         self.arrays = self._arrays_of(command)
         self.unfilled = width_of(command.mode) == WIDTH_OF_POLYGONS and passes_stages(self.state)
         self.stippled = width_of(command.mode) == WIDTH_OF_LINES and is_stippled(self.state.lines)
@@ -106,6 +114,7 @@ class Run:
         self.layout = self._layout(in_eye_space)
         self.across = is_flat and (
             bool(self.layout.separate)
+            or self.repeats_primary
             or ((self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units))
         )
 
@@ -137,6 +146,7 @@ class Run:
             in_eye_space=int(in_eye_space),
             maps_normals=int(any(map(needs_normals, settings))),
             reflects_r=int(any(map(reflects_r, settings))),
+            repeats_primary=int(self.repeats_primary),
             ignored=NEAR_FAR if state.depth.clamp else 0,
         )
 
@@ -336,8 +346,6 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
         return False
     fog = state.fog
     if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
-        return False
-    if not state.lighting.enabled and any(map(reads_primary_color, state.units)):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)

@@ -47,7 +47,8 @@ class Layout(NamedTuple):
 
     lit, separate, two_side, fog: the state; colors, normals: whether they are arrays; units: how many are in use;
     in_eye_space: a unit generates coordinates there; maps_normals: from normals; reflects_r: see
-    `texture_coordinates.Normals`; ignored: clip codes that do not clip.
+    `texture_coordinates.Normals`; repeats_primary: see `fixed_function.repeats_primary`; ignored: clip codes that do
+    not clip.
     """
 
     lit: int
@@ -60,6 +61,7 @@ class Layout(NamedTuple):
     in_eye_space: int
     maps_normals: int
     reflects_r: int
+    repeats_primary: int
     ignored: int
 
 
@@ -152,6 +154,11 @@ def process_vertices(
                 distance = transformed(modelview, 2, x, y, z, w) if from_eye else plane_dot(modelview, 2, x, y, z, w)
                 values[v, column] = abs(distance)
             column += 1
+        if layout.repeats_primary:
+            for vertex in range(first, last):
+                v = np.uint64(vertex)
+                for c in range(4):
+                    values[v, column + c] = values[v, c]
         if layout.two_side:
             for vertex in range(first, last):
                 for c in range(7 if layout.separate else 4, column):
