@@ -345,7 +345,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     if not _are_covered(command.mode, state) or first_provokes(state):
         return False
     fog = state.fog
-    if fog.color_sum or fog.source != gl.GL_FRAGMENT_DEPTH:
+    if fog.color_sum or (fog.enabled and fog.source != gl.GL_FRAGMENT_DEPTH):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)
