@@ -1027,7 +1027,7 @@ GL_SRC2_ALPHA = GL_SOURCE2_ALPHA
 
 
 def token_name(value: int, among: tuple[str, ...] = ()) -> str:
-    """Return the name of a token by its number: the first one in `among`, or else any.
+    """Return the name of a token by its number: the first one in `among`, or else any; a bit of masks comes last.
 
     Examples
     --------
@@ -1040,4 +1040,6 @@ def token_name(value: int, among: tuple[str, ...] = ()) -> str:
     return _NAMES.get(value, hex(value))
 
 
-_NAMES = {value: name for name, value in reversed(list(globals().items())) if name.startswith("GL_")}
+_tokens = [(name, value) for name, value in reversed(list(globals().items())) if name.startswith("GL_")]
+_tokens.sort(key=lambda token: not token[0].endswith(("_BIT", "_BITS")))  # later names replace earlier ones
+_NAMES = {value: name for name, value in _tokens}
