@@ -51,7 +51,9 @@ WORTH_SHARING = 64  # triangles for each thread, from which threads share them i
 WORTH_BANDS_IN_TILES = 200_000  # the same for fills in tiles: the sides of volumes are long and thin
 FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangle: finding their spans would cost more
 TRIANGLES_OF_QUAD = 2
-SPARSE = 0.3  # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing
+# fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing; and pixels for
+# each triangle: with fewer, the search takes less time than drawing the triangles one by one
+SPARSE, SPACIOUS = 0.3, 20
 # fragments of a triangle, and for each pixel of their region: such triangles have long spans, of which few are hidden
 LARGE_TRIANGLE, FEW_LAYERS = 80, 1.3
 # the same without textures, where shading a hidden span costs less than to find out that it is hidden
@@ -229,9 +231,10 @@ def choose_forward(
 
 def _hides_little(geometry: Geometry, fragments: int, region: Region) -> bool:
     """Return whether finding the visible spans of an opaque draw would cost more than it saves."""
-    layers = fragments / ((region.right - region.left) * (region.end_row - region.first_row) or 1)
+    pixels = (region.right - region.left) * (region.end_row - region.first_row) or 1
+    layers = fragments / pixels
     n_triangles, is_textured = len(geometry.triangles.ids), bool(geometry.program.units)
-    if n_triangles <= TRIANGLES_OF_QUAD or layers < SPARSE:
+    if n_triangles <= TRIANGLES_OF_QUAD or (layers < SPARSE and pixels >= SPACIOUS * n_triangles):
         return True
     if layers < FEW_LAYERS and fragments >= LARGE_TRIANGLE * n_triangles:
         return True
