@@ -38,7 +38,7 @@ from softshadow.pipeline.fast.fragment_numbers import (
     updated,
 )  # fmt: skip
 from softshadow.pipeline.fast.small_triangles import small_fill_for
-from softshadow.pipeline.memory.scratch import apart
+from softshadow.pipeline.memory.scratch import apart, row_columns
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
@@ -89,8 +89,7 @@ class _FillMemory(threading.local):
     """The scratch arrays of fills, for each thread."""
 
     def __init__(self) -> None:
-        self.columns, self.rows, self.ties = apart(CHUNK, np.uint8), apart((2, 1), np.int32), apart(CHUNK, np.int32)
-        self.box = apart(CHUNK, np.uint8)
+        self.row, self.box, self.ties = apart(CHUNK, np.uint8), apart(CHUNK, np.uint8), apart(CHUNK, np.int32)
 
 
 _memory = _FillMemory()
@@ -102,12 +101,11 @@ def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
     The last one is not 0 after the fill where a fragment has the stored depth; with ids and without stencil test only.
     """
     memory = _memory
-    if len(memory.columns) < pitch:
-        memory.columns = apart(pitch, np.uint8)
-    if memory.rows.shape[1] < region.end_row:
-        memory.rows = apart((2, region.end_row), np.int32)
+    if len(memory.row) < pitch:
+        memory.row = apart(pitch, np.uint8)
     memory.ties.fill(0)
-    return memory.rows[0], memory.rows[1], memory.columns, memory.box, memory.ties
+    lefts, rights = row_columns(region.end_row)
+    return lefts, rights, memory.row, memory.box, memory.ties
 
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:

@@ -23,7 +23,7 @@ from softshadow.pipeline.fast.segment_tables import (
     padded_textures,
     texels_of_units,
 )
-from softshadow.pipeline.memory.scratch import apart, scratch
+from softshadow.pipeline.memory.scratch import apart, row_columns, scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS, rows_of_few_bands, triangles_in_bands
 from softshadow.pipeline.raster.region import depth_range_of
@@ -165,7 +165,7 @@ def draw_rows(
     draw_segments(
         segments.table, segments.ranges, order, first_row, end_row, segments.region.downwards, triangles.corners,
         triangles.depth, triangles.front, planes, in_order, segments.flats, *segments.states, segments.textures,
-        segments.pixels, segments.depth, segments.stencil, passed, *_lists.spans, *apart((2, end_row), np.int32),
+        segments.pixels, segments.depth, segments.stencil, passed, *_lists.spans, *row_columns(end_row),
         *block_memory.arrays,
     )  # fmt: skip
     return passed

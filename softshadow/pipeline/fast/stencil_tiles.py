@@ -53,7 +53,7 @@ from softshadow.pipeline.fast.pending_updates import (
     count_rows,
 )  # fmt: skip
 from softshadow.pipeline.fast.small_triangles import columns_of, is_small, small_fill_for
-from softshadow.pipeline.memory.scratch import apart, scratch
+from softshadow.pipeline.memory.scratch import apart, row_columns, scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.coverage import bounds, row_spans
 from softshadow.pipeline.raster.fill import FillKernel
@@ -139,7 +139,7 @@ def _fill_chunks(
     """Fill triangles, a chunk of their numbers after the other, and apply what is pending after the last."""
     depth, pending = buffers.depth, PendingUpdates.none(region)
     room, passed = apart((3, COLUMNS), depth.dtype), apart(ROWS * COLUMNS, np.uint8)
-    lefts, rights = apart((2, region.end_row), np.int32)
+    lefts, rights = row_columns(region.end_row)
     pitch = min(depth.shape[1], stencil.shape[1])
     for chunk in chunks:
         fill_in_tiles(

@@ -66,6 +66,26 @@ def apart(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarra
     return np.ndarray(shape, kind, np.empty(numbers * kind.itemsize + 2 * LINE, np.uint8), LINE)
 
 
+class _RowColumns(threading.local):
+    """What `row_columns` returns, for each thread."""
+
+    def __init__(self) -> None:
+        self.arrays = apart((2, 1), np.int32)
+
+
+_row_columns = _RowColumns()
+
+
+def row_columns(end_row: int) -> np.ndarray:
+    """Return scratch (2, end_row or more) int32 for a first and an end column of each row.
+
+    All calls of a thread return the same memory, for one kernel after the other.
+    """
+    if _row_columns.arrays.shape[1] < end_row:
+        _row_columns.arrays = apart((2, end_row), np.int32)
+    return _row_columns.arrays
+
+
 def _make_room(size: int) -> None:
     """Empty the pool if one more block does not fit; blocks in use live until their last reference is gone."""
     of_size = _thread_blocks.of_size

@@ -1,6 +1,7 @@
 """Scratch arrays never share memory while they are in use, and use the memory of earlier ones."""
 
 import threading
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softshadow.pipeline.memory import scratch as module
-from softshadow.pipeline.memory.scratch import POOLED, SMALLEST, scratch
+from softshadow.pipeline.memory.scratch import LINE, POOLED, SMALLEST, apart, row_columns, scratch
 
 LARGE = SMALLEST // 4
 
@@ -80,3 +81,29 @@ def test_threads_have_memory_of_their_own():
     thread.start()
     thread.join()
     assert not np.shares_memory(mine, theirs[0])
+
+
+@pytest.mark.parametrize("shape", [1, 32, (2, 5)])
+@pytest.mark.parametrize("kind", [np.uint8, np.int64])
+def test_an_array_that_lies_apart_has_its_cache_lines_alone(shape, kind):
+    arrays = [apart(shape, kind) for _ in range(20)]
+    places = sorted(map(address, arrays))
+    assert all(end - begin >= arrays[0].nbytes + LINE for begin, end in pairwise(places))
+    assert all(each.shape == np.empty(shape).shape and each.dtype == kind for each in arrays)
+    assert all(each.flags.c_contiguous and each.flags.writeable and each.flags.aligned for each in arrays)
+    base = arrays[0].base  # bytes that nothing else uses, before and behind
+    assert LINE <= address(arrays[0]) - address(base) <= base.nbytes - arrays[0].nbytes - LINE
+
+
+def test_columns_of_rows_are_those_of_one_thread():
+    ours = row_columns(7)
+    assert ours.shape[0] == 2
+    assert ours.shape[1] >= 7
+    assert row_columns(3) is ours
+    longer = row_columns(ours.shape[1] + 1)
+    assert longer.shape == (2, ours.shape[1] + 1)
+    theirs = []
+    thread = threading.Thread(target=lambda: theirs.append(row_columns(7)))
+    thread.start()
+    thread.join()
+    assert not np.shares_memory(theirs[0], longer)
