@@ -32,6 +32,7 @@ from softshadow.pipeline.choose import (
     choose_geometry,
     choose_shading,
     fill_colorless,
+    shades_in_bands,
 )
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.draw_path import DrawPath, explain_paths
@@ -55,7 +56,7 @@ from softshadow.pipeline.shade.blend import compared_alpha
 from softshadow.pipeline.shade.color_writes import color_writer
 from softshadow.pipeline.shade.discards import fragments_in
 from softshadow.pipeline.shade.shading import shade, shade_and_write
-from softshadow.pipeline.shade.visible_spans import BandsOfIds, spans_of, visible_spans
+from softshadow.pipeline.shade.visible_spans import BandsOfIds, VisibleSpans, spans_of, visible_spans
 from softshadow.state import State
 
 __all__ = [
@@ -143,14 +144,18 @@ def _draw_opaque(
     def fill_all(bands: BandsOfIds | None = None) -> None:
         _fill(plan, state, target, triangles, region, fragments, bands=bands, counts=counts, ties=ties)
 
-    def visible() -> Spans:
-        bands = BandsOfIds(region, padded_shape(target)[1])
-        fill_all(bands)
-        return bands.spans()
-
     if not plan.writes_color:
         fill_all()
         return
+    shade_spans = choose_shading(plan, state, target, geometry)
+    in_bands = shades_in_bands(plan, target, geometry)
+
+    def visible() -> VisibleSpans:
+        bands = BandsOfIds(region, padded_shape(target)[1], shade_spans if in_bands else None)
+        fill_all(bands)
+        return bands.spans()
+
+    was_cached = False
     if plan.cached_fill:
         depth_range = depth_range_of(state, real)
         spans, was_cached = plan.cached_fill(
@@ -162,7 +167,8 @@ def _draw_opaque(
             plan.remember_surface(triangles, region_of(state, target), depth_range, target, storage, spans)
     else:
         spans = visible()
-    choose_shading(plan, state, target, geometry)(spans)
+    if was_cached or not spans.are_shaded:
+        shade_spans(spans.joined)
 
 
 def _draw_in_order(
@@ -302,11 +308,13 @@ def _fill(
     before: OfRows = nothing
     after: OfRows = nothing
     if bands:
-        ids, before, after = bands.ids, bands.clear, bands.count
+        ids, before, after = bands.ids, bands.clear, bands.finish
     n_triangles = len(triangles.ids) if ranges is None else sum(end - first for first, end in ranges)
     choice = choose_fill(
         plan, n_triangles, fragments, region, writes_ids=writes_ids, counts=counts, depth=target.depth, ties=ties
     )
+    if bands and not choice.are_few:
+        bands.shade = None
     real, writes_depth = triangles.depth.dtype, bool(plan.front.depth_write or plan.back.depth_write)
     buffers = fill_buffers(*buffer_cells(target, real, writes_depth=writes_depth), real, region, ids)
     fill(

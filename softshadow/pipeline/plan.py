@@ -22,6 +22,7 @@ from softshadow.pipeline.mesa.polygon_rules import has_special_fragments, passes
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.raster.fragment_ops import FragmentOps, fragment_ops
 from softshadow.pipeline.records import FragmentCounts, Region, Spans
+from softshadow.pipeline.shade.visible_spans import VisibleSpans
 from softshadow.state import State
 
 try:
@@ -105,7 +106,7 @@ class Plan(NamedTuple):
     path: DrawPath
     numbers: list[SegmentState]
     in_chunks: bool = False
-    cached_fill: Callable[..., tuple[Spans, bool]] | None = None
+    cached_fill: Callable[..., tuple[VisibleSpans, bool]] | None = None
     remember_surface: Callable[..., None] | None = None
     passing_spans: Callable[..., list[Spans] | None] | None = None
     without_overlaps: WithoutOverlaps | None = None

@@ -7,8 +7,9 @@ import pytest
 
 import softshadow as ss
 from softshadow import gl
-from softshadow.pipeline import set_threads, threads, use_short_cuts
+from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.memory import threads as pool
+from softshadow.pipeline.shade.visible_spans import BandsOfIds
 
 # what is shared from how much work on; here, anything is, in small pieces
 SMALL = {
@@ -32,9 +33,9 @@ SHARING = [
 
 RUNS = [
     ("planar-accumulated", {"samples": 2}, {"shading"}),
-    ("volume-zfail", {}, {"stencil_tiles", "visible_spans", "triangle_setup"}),
+    ("volume-zfail", {}, {"stencil_tiles", "fill", "triangle_setup"}),
     ("volume-wedges", {}, {"fill", "interpolate"}),
-    ("map-pcf", {}, {"fill", "shading"}),
+    ("map-pcf", {}, {"fill", "shading", "visible_spans"}),
 ]
 
 
@@ -74,6 +75,53 @@ def test_shared_work_leaves_the_buffers_of_one_thread(in_small_pieces, technique
             np.testing.assert_array_equal(getattr(a, name), getattr(b, name), err_msg=f"{a.title}: {name}")
         for name in a.maps:
             np.testing.assert_array_equal(a.maps[name], b.maps[name], err_msg=f"{a.title}: {name}")
+
+
+def mesh_over_depths(attached: bool) -> np.ndarray:
+    """Return a picture of triangles over each other that shows a texture of depths: those of its target, or others."""
+    rng = np.random.default_rng(3)
+    gl.create_context(64, 64)
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 1)
+    color, depth = (gl.GL_RGBA, gl.GL_UNSIGNED_BYTE), (gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT)
+    kinds = (gl.GL_COLOR_ATTACHMENT0, gl.GL_RGBA, color), (gl.GL_DEPTH_ATTACHMENT, gl.GL_DEPTH_COMPONENT24, depth)
+    for texture, (point, internal_format, kind) in enumerate((*kinds, kinds[1]), 1):
+        gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, internal_format, 64, 64, 0, *kind, None)
+        if texture < 3:
+            gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, point, gl.GL_TEXTURE_2D, texture, 0)
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 2 if attached else 3)
+    gl.glEnable(gl.GL_TEXTURE_2D)
+    corners = rng.uniform(-1, 1, (6000, 3)).astype(np.float32)
+    coordinates = rng.random((6000, 2)).astype(np.float32)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glEnableClientState(gl.GL_TEXTURE_COORD_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, corners)
+    gl.glTexCoordPointer(2, gl.GL_FLOAT, 0, coordinates)
+    gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(corners))
+    return gl.glReadPixels(0, 0, 64, 64, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
+
+
+@pytest.mark.parametrize("attached", [False, True])
+def test_bands_are_shaded_one_by_one_unless_their_depths_are_read(in_small_pieces, monkeypatch, attached):
+    shaded = []
+    finish = BandsOfIds.finish
+
+    def noted_finish(bands, first_row, end_row):
+        shaded.append(bands.shade is not None)
+        finish(bands, first_row, end_row)
+
+    set_threads(1)
+    with use_short_cuts("always"):
+        alone = mesh_over_depths(attached)
+        in_small_pieces()
+        monkeypatch.setattr(BandsOfIds, "finish", noted_finish)
+        monkeypatch.setattr(choose, "LAYERS", 10_000)  # few bands in spite of many layers
+        np.testing.assert_array_equal(mesh_over_depths(attached), alone)
+    assert len(shaded) > 1
+    assert shaded == [not attached] * len(shaded)
 
 
 def test_shared_sums_are_those_of_one_thread(in_small_pieces):

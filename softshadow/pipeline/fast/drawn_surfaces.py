@@ -33,6 +33,7 @@ from softshadow.pipeline.memory.scratch import apart, scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.fragment_ops import EQUAL, LEQUAL, LESS, NEVER, FragmentOps
 from softshadow.pipeline.records import DepthRange, Region, Setup, Spans
+from softshadow.pipeline.shade.visible_spans import VisibleSpans, joined_spans
 
 MOST_SURFACES = 16  # of one storage
 BLOCK = 64  # fragments of a span that are tested at a time
@@ -53,7 +54,7 @@ class DrawnSurface(NamedTuple):
     image: Image
     then: object
     now: object
-    spans: Spans
+    spans: VisibleSpans
 
 
 def leaves_nearest(front: FragmentOps, back: FragmentOps) -> bool:
@@ -70,7 +71,12 @@ def only_lessens_depths(front: FragmentOps, back: FragmentOps) -> bool:
 
 
 def remember_surface(
-    triangles: Setup, region: Region, depth_range: DepthRange, target: Framebuffer, storage: Storage, spans: Spans
+    triangles: Setup,
+    region: Region,
+    depth_range: DepthRange,
+    target: Framebuffer,
+    storage: Storage,
+    spans: VisibleSpans,
 ) -> None:
     """Remember the visible spans of a draw that `leaves_nearest`, in which no two depths were equal.
 
@@ -189,7 +195,7 @@ def _tested(
     target: Framebuffer,
 ) -> Spans:
     tests_depth, tests_stencil = surface.then is not surface.now, bool(front.stencil_test or back.stencil_test)
-    spans, triangles = surface.spans, surface.triangles
+    spans, triangles = surface.spans.joined, surface.triangles
     if not (tests_depth or tests_stencil) and region == surface.region:
         return spans
     depth, stencil = surface.image.read_cells, NO_STENCIL if target.stencil is None else target.stencil.read_cells
@@ -207,19 +213,7 @@ def _tested(
         )  # fmt: skip
         return Spans(row[:count], left[:count], triangle[:count], start[: count + 1])
 
-    return _joined(share(test, len(parts)))
-
-
-def _joined(parts: list[Spans]) -> Spans:
-    """Return the spans of all parts in one list."""
-    if len(parts) == 1:
-        return parts[0]
-    starts, first = [np.zeros(1, np.int64)], 0
-    for part in parts:
-        starts.append(part.start[1:] + first)
-        first += part.fragments
-    row, left, triangle = (np.concatenate(arrays) for arrays in list(zip(*parts, strict=True))[:3])
-    return Spans(row, left, triangle, np.concatenate(starts))
+    return joined_spans(share(test, len(parts)))
 
 
 @kernel

@@ -100,18 +100,19 @@ def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
         buffers: FillBuffers,
     ) -> None:
         bounds, rows = _bounds_of(depth_image, buffers), slice(region.first_row, region.end_row)
-        rooms = [apart((3, COLUMNS), buffers.depth.dtype) for _ in range(threads())]
+        n_threads = threads()
+        rooms = [apart((3, COLUMNS), buffers.depth.dtype) for _ in range(n_threads)]
         tile_rows = range(region.first_row >> ROWS_LOG2, ((region.end_row - 1) >> ROWS_LOG2) + 1)
 
         def complete(n: int) -> None:  # each n has rows of its own
-            for tile_row in tile_rows[n :: threads()]:
+            for tile_row in tile_rows[n::n_threads]:
                 complete_bounds(buffers.depth, tile_row, region, *bounds, rooms[n])
 
         n_pixels = (region.end_row - region.first_row) * buffers.depth.shape[1]
-        share(complete, threads(), n_pixels >= WORTH_SHARING)
-        size = min(len(numbers) // (CHUNKS_PER_THREAD * threads()) + 1, SHARED_TRIANGLES)
+        share(complete, n_threads, n_pixels >= WORTH_SHARING)
+        size = min(len(numbers) // (CHUNKS_PER_THREAD * n_threads) + 1, SHARED_TRIANGLES)
         chunks = iter([numbers[at : at + size] for at in range(0, len(numbers), size)])
-        counts = [buffers.stencil, *(scratch(buffers.stencil.shape, np.uint8) for _ in range(1, threads()))]
+        counts = [buffers.stencil, *(scratch(buffers.stencil.shape, np.uint8) for _ in range(1, n_threads))]
 
         def fill_some(n: int) -> None:
             if n:
@@ -119,7 +120,7 @@ def shared_tiles_kernel(depth_image: Image | None = None) -> FillKernel:
             ops = numbers_of(front, back), front.depth_largest
             _fill_chunks(chunks, *ops, triangles, region, depth_range, buffers, bounds, counts[n])
 
-        share(fill_some, threads())
+        share(fill_some, n_threads)
         for each in counts[1:]:
             buffers.stencil[rows] += each[rows]
         if front.stencil_largest < ALL:

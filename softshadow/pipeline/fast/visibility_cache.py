@@ -23,7 +23,8 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.image import Image
 from softshadow.pipeline.memory.comparison import same_bits
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
-from softshadow.pipeline.records import DepthRange, Region, Setup, Spans
+from softshadow.pipeline.records import DepthRange, Region, Setup
+from softshadow.pipeline.shade.visible_spans import VisibleSpans
 
 CACHE_BYTES = 64 << 20  # of one storage: 50 draws that fill 640x480 pixels
 SEEN = 512  # draws whose fingerprints are known
@@ -78,14 +79,14 @@ class CacheEntry:
     after: tuple[object, object]
     depth: np.ndarray | None
     stencil: np.ndarray | None
-    spans: Spans
+    spans: VisibleSpans
     ties: list[int]
     hits: int = 0
 
     @cached_property
     def bytes(self) -> int:
         """The size of the arrays in bytes."""
-        arrays = (self.depth, self.stencil, *self.spans, *self.inputs.triangles)
+        arrays = (self.depth, self.stencil, *self.spans.joined, *self.inputs.triangles)
         return sum(array.nbytes for array in arrays if array is not None)
 
 
@@ -157,9 +158,9 @@ def cached_fill(
     depth_range: DepthRange,
     target: Framebuffer,
     storage: Storage,
-    fill: Callable[[], Spans],
+    fill: Callable[[], VisibleSpans],
     ties: list[int],
-) -> tuple[Spans, bool]:
+) -> tuple[VisibleSpans, bool]:
     """Fill, or restore the result of an equal fill; return the visible spans, and whether they were cached.
 
     Parameters

@@ -24,7 +24,7 @@ from softshadow.state import Cull, Polygon
 SLOPES = {"max": 0, "length": 1, "slide": 2}
 MAX_SLOPE, LENGTH_SLOPE = 0, 1
 MANTISSA_BITS = 23
-TRIANGLES_PER_TASK = 1 << 12  # that one thread sets up in one go
+TRIANGLES_PER_TASK = 1 << 14  # that one thread sets up in one go: 150 us
 
 
 NO_TRIANGLES = Setup(

@@ -4,7 +4,11 @@ Shading and writing go span by span: values of the triangle and of the row are l
 a long span are vectorised.
 """
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -37,16 +41,18 @@ class CountedRows(NamedTuple):
 
 
 class BandsOfIds:
-    """The ids of a fill in bands of rows: `clear` is called before a band is filled, and `count` after it.
+    """The ids of a fill in bands of rows: `clear` is called before a band is filled, and `finish` after it.
 
     Attributes
     ----------
     ids : (rows of the region, pitch) int32, the triangle of each pixel or -1, in the columns of the region
+    shade : called with the spans of each band, by the thread that has filled it; None if they are shaded later
     """
 
-    def __init__(self, region: Region, pitch: int) -> None:
-        self._region, self._counted = region, list[CountedRows]()
+    def __init__(self, region: Region, pitch: int, shade: Callable[[Spans], None] | None = None) -> None:
+        self._region, self._counted, self._shaded = region, list[CountedRows](), list[tuple[int, Spans]]()
         self.ids = scratch((region.end_row - region.first_row, pitch), np.int32)
+        self.shade = shade
 
     def clear(self, first_row: int, end_row: int) -> None:
         """Set the ids of a band to those of pixels without a triangle."""
@@ -54,14 +60,53 @@ class BandsOfIds:
         rows = slice(first_row - region.first_row, end_row - region.first_row)
         self.ids[rows, region.left : region.right] = NO_TRIANGLE
 
-    def count(self, first_row: int, end_row: int) -> None:
-        """Count the spans and the fragments of a band."""
+    def finish(self, first_row: int, end_row: int) -> None:
+        """Count the spans and the fragments of a band; shade them, if they are shaded by bands."""
         first, end = first_row - self._region.first_row, end_row - self._region.first_row
-        self._counted.append(_counted(self.ids, self._region, first, end))
+        counted = _counted(self.ids, self._region, first, end)
+        if self.shade is None:
+            self._counted.append(counted)
+            return
+        spans = _collected(self.ids, self._region, [counted])
+        self.shade(spans)
+        self._shaded.append((first, spans))
 
-    def spans(self) -> Spans:
+    def spans(self) -> VisibleSpans:
         """Return the spans of visible fragments of all bands."""
-        return _collected(self.ids, self._region, sorted(self._counted))
+        if self.shade is None:
+            return VisibleSpans([_collected(self.ids, self._region, sorted(self._counted))], are_shaded=False)
+        return VisibleSpans([spans for _, spans in sorted(self._shaded, key=itemgetter(0))], are_shaded=True)
+
+
+class VisibleSpans:
+    """The spans of visible fragments in one list or several, which follow each other.
+
+    Attributes
+    ----------
+    are_shaded : whether the draw that they were found for has shaded them already
+    """
+
+    def __init__(self, parts: list[Spans], *, are_shaded: bool) -> None:
+        self._parts, self.are_shaded = parts, are_shaded
+
+    @cached_property
+    def joined(self) -> Spans:
+        """All spans in one list."""
+        if len(self._parts) > 1:
+            self._parts = [joined_spans(self._parts)]
+        return self._parts[0]
+
+
+def joined_spans(parts: Sequence[Spans]) -> Spans:
+    """Return the spans of several lists in one."""
+    if len(parts) == 1:
+        return parts[0]
+    starts, first = [np.zeros(1, np.int64)], 0
+    for part in parts:
+        starts.append(part.start[1:] + first)
+        first += part.fragments
+    row, left, triangle = (np.concatenate(arrays) for arrays in list(zip(*parts, strict=True))[:3])
+    return Spans(row, left, triangle, np.concatenate(starts))
 
 
 def visible_spans(ids: np.ndarray, region: Region) -> Spans:

@@ -36,6 +36,13 @@ def test_an_exception_in_a_piece_reaches_the_caller(some_threads):
         share(fail, 20)
 
 
+def test_a_piece_of_shared_work_has_one_thread(some_threads):
+    assert share(lambda number: threads(), 9) == [1] * 9
+    with pytest.raises(ZeroDivisionError):
+        share(lambda number: 1 // number, 9)
+    assert threads() == some_threads
+
+
 @pytest.mark.parametrize("n", [0, 1, PART_SIZE, PART_SIZE + 1, 5 * PART_SIZE - 1])
 def test_parts_make_up_the_whole(some_threads, n):
     assert [item for first, end in parts_of(n) for item in range(first, end)] == list(range(n))

@@ -113,10 +113,11 @@ def test_the_parts_of_all_chunks_make_up_the_spans(seed, size):
     assert all(part.fragments <= size + 3 * SIZE for part in parts)
 
 
-@given(st.integers(0, 2**32 - 1), st.randoms())
-def test_ids_that_are_counted_in_bands_have_the_spans_of_all_rows(seed, random):
+@given(st.integers(0, 2**32 - 1), st.randoms(), st.booleans())
+def test_ids_that_are_found_in_bands_have_the_spans_of_all_rows(seed, random, in_bands):
     ids, first_row = random_ids(seed), 11
-    bands = BandsOfIds(Region(0, ids.shape[1], first_row, first_row + len(ids), 0), ids.shape[1])
+    region, shaded = Region(0, ids.shape[1], first_row, first_row + len(ids), 0), []
+    bands = BandsOfIds(region, ids.shape[1], shaded.append if in_bands else None)
     cuts = sorted({0, len(ids), *(random.randint(0, len(ids)) for _ in range(3))})
     rows = [(first + first_row, end + first_row) for first, end in pairwise(cuts)]
     random.shuffle(rows)  # threads take bands in any order
@@ -125,9 +126,14 @@ def test_ids_that_are_counted_in_bands_have_the_spans_of_all_rows(seed, random):
         within = slice(first - first_row, end - first_row)
         assert (bands.ids[within] == NO_TRIANGLE).all()
         bands.ids[within] = ids[within]
-        bands.count(first, end)
-    expected = spans_in(ids, first_row)
-    assert all(np.array_equal(a, b) for a, b in zip(bands.spans(), expected, strict=True))
+        bands.finish(first, end)
+    expected, spans = spans_in(ids, first_row), bands.spans()
+    assert spans.are_shaded == in_bands
+    assert all(np.array_equal(a, b) for a, b in zip(spans.joined, expected, strict=True))
+    assert [each.row.min() for each in shaded if len(each.row)] == [
+        expected.row[(expected.row >= first) & (expected.row < end)][0] for first, end in rows
+        if in_bands and ((expected.row >= first) & (expected.row < end)).any()
+    ]  # fmt: skip
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 9), st.integers(0, 20))
