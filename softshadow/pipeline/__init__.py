@@ -147,11 +147,11 @@ def _draw_opaque(
     if not plan.writes_color:
         fill_all()
         return
-    shade_spans = choose_shading(plan, state, target, geometry)
-    in_bands = shades_in_bands(plan, target, geometry)
 
     def visible() -> VisibleSpans:
-        bands = BandsOfIds(region, padded_shape(target)[1], shade_spans if in_bands else None)
+        in_bands = shades_in_bands(plan, target, geometry)
+        shade_band = choose_shading(plan, state, target, geometry) if in_bands else None
+        bands = BandsOfIds(region, padded_shape(target)[1], shade_band)
         fill_all(bands)
         return bands.spans()
 
@@ -168,7 +168,7 @@ def _draw_opaque(
     else:
         spans = visible()
     if was_cached or not spans.are_shaded:
-        shade_spans(spans.joined)
+        choose_shading(plan, state, target, geometry)(spans.joined)  # not earlier: this may clear the colours
 
 
 def _draw_in_order(

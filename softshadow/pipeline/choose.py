@@ -86,7 +86,7 @@ def choose_geometry(plan: Plan, command: Draw, target: Framebuffer, storage: Sto
 
 
 class FillChoice(NamedTuple):
-    """The kernel that fills, how many rows a band has (0: no bands), and whether there is a band or two per thread."""
+    """The kernel that fills, how many rows a band has (0: no bands), and whether each thread has a band or two."""
 
     kernel: FillKernel
     band_rows: int
@@ -137,7 +137,7 @@ def choose_fill(
     if counts is not None or not bands_pay or not _bands_pay(region, n_fragments):
         return FillChoice(kernel, 0)
     path.fill += " in bands"
-    return FillChoice(kernel, _band_rows(region, n_fragments), threads() > 1 and not _has_layers(region, n_fragments))
+    return FillChoice(kernel, _band_rows(region, n_fragments), not _has_layers(region, n_fragments))
 
 
 def _shares_triangles(front: FragmentOps, back: FragmentOps, n_triangles: int, n_fragments: int) -> bool:
@@ -277,9 +277,9 @@ def choose_shading(plan: Plan, state: State, target: Framebuffer, geometry: Geom
 
 
 def shades_in_bands(plan: Plan, target: Framebuffer, geometry: Geometry) -> bool:
-    """Return whether the bands of a fill may be shaded before all are filled: by kernels, from other textures."""
+    """Return whether threads may shade the bands of a fill before all are filled: by kernels, from other textures."""
     units = geometry.program.units
-    if not plan.forward or units is None or not SPAN_KERNELS.are_compiled():
+    if threads() == 1 or not plan.forward or units is None or not SPAN_KERNELS.are_compiled():
         return False
     return not any(target.attaches(unit.texture.name) for unit in units)
 
