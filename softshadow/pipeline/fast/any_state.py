@@ -100,12 +100,10 @@ def fill_scratch(pitch: int, region: Region) -> tuple[np.ndarray, ...]:
 
     The last one is not 0 after the fill where a fragment has the stored depth; with ids and without stencil test only.
     """
-    memory = _memory
-    if len(memory.row) < pitch:
-        memory.row = apart(pitch, np.uint8)
-    memory.ties.fill(0)
-    lefts, rights = row_columns(region.end_row)
-    return lefts, rights, memory.row, memory.box, memory.ties
+    if len(_memory.row) < pitch:
+        _memory.row = apart(pitch, np.uint8)
+    _memory.ties.fill(0)
+    return *row_columns(region.end_row), _memory.row, _memory.box, _memory.ties
 
 
 def compiled_for(tests_stencil: bool, writes_ids: bool) -> Any:

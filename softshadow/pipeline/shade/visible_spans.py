@@ -7,7 +7,6 @@ a long span are vectorised.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -89,7 +88,7 @@ class VisibleSpans:
     def __init__(self, parts: list[Spans], *, are_shaded: bool) -> None:
         self._parts, self.are_shaded = parts, are_shaded
 
-    @cached_property
+    @property
     def joined(self) -> Spans:
         """All spans in one list."""
         if len(self._parts) > 1:
