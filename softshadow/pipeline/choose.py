@@ -53,7 +53,7 @@ FEW_FRAGMENTS = 20_000  # opaque draws up to these are drawn triangle by triangl
 TRIANGLES_OF_QUAD = 2
 # fragments for each pixel of their region: from fewer on, most of the search for spans finds nothing; and pixels for
 # each triangle: with fewer, the search takes less time than drawing the triangles one by one
-SPARSE, SPACIOUS = 0.3, 20
+SPARSE, SPACIOUS = 0.3, 12
 # fragments of a triangle, and for each pixel of their region: such triangles have long spans, of which few are hidden
 LARGE_TRIANGLE, FEW_LAYERS = 80, 1.3
 # the same without textures, where shading a hidden span costs less than to find out that it is hidden
