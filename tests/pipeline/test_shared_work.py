@@ -18,7 +18,6 @@ SMALL = {
     "fast.batch.geometry": {"VERTICES_PER_TASK": 8},
     "fast.forward": {"WORTH_BANDS": 0},
     "fast.stencil_tiles": {"WORTH_SHARING": 0, "SHARED_TRIANGLES": 8},
-    "geometry.triangle_setup": {"TRIANGLES_PER_TASK": 8},
     "memory.threads": {"PART_SIZE": 8},
     "raster.bins": {"FEW_VISITS": 300, "FEW_BANDS": 1},
     "shade.interpolate": {"TRIANGLES_PER_TASK": 2},

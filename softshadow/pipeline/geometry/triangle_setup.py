@@ -24,8 +24,6 @@ from softshadow.state import Cull, Polygon
 SLOPES = {"max": 0, "length": 1, "slide": 2}
 MAX_SLOPE, LENGTH_SLOPE = 0, 1
 MANTISSA_BITS = 23
-TRIANGLES_PER_TASK = 1 << 14  # that one thread sets up in one go: 150 us
-
 
 NO_TRIANGLES = Setup(
     np.empty((0, 6), np.int32),
@@ -92,7 +90,7 @@ def set_up(window: np.ndarray, triangles: np.ndarray, cull: Cull, offset: Offset
     triangles : (T, 3) int32
     """
     facing, (snapped, _) = stored_culling(cull, flipped), snapped_vertices(window)
-    triangles, parts = read_only(triangles), parts_of(len(triangles), TRIANGLES_PER_TASK)
+    triangles, parts = read_only(triangles), parts_of(len(triangles))
     setup = empty_setup(len(triangles), window.dtype)
     ends = share(
         lambda n: set_up_triangles(window, snapped, triangles, *parts[n], *facing, offset, parts[n][0], *setup),
