@@ -227,3 +227,27 @@ def test_kinds_of_one_state_are_found_again_by_the_arrays_of_their_draws(monkeyp
             gl.glEnd()
             gl.glFinish()
     assert [draw.vertices.color.strides[0] > 0 for draw in compared] == [False, True]
+
+
+@pytest.mark.parametrize("caps", [(), (gl.GL_LINE_SMOOTH,), (gl.GL_LINE_STIPPLE,)])
+def test_lines_of_many_widths_are_one_batch_with_the_bits_of_single_draws(planned, batches, caps):
+    def drawn() -> list[bytes]:
+        context = gl.create_context(SIZE, SIZE)
+        for cap in (gl.GL_BLEND, *caps):
+            gl.glEnable(cap)
+        gl.glLineStipple(2, 0x3B5D)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+        for n in range(12):
+            gl.glLineWidth(0.3 + 0.7 * n)
+            gl.glColor4f(n / 12, 0.5, 1 - n / 12, 0.6)
+            gl.glBegin((gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP)[n % 3])
+            for k in range(4):  # some ends lie outside
+                gl.glVertex3f(n % 4 / 2 - 0.7 + k % 2, n // 4 / 2 - 0.6 + k // 2 / 3, k / 2)
+            gl.glEnd()
+        gl.glFinish()
+        return [each.image.view.tobytes() for each in context.storage.window.attachments.values()]
+
+    with use_short_cuts(False):
+        expected = drawn()
+    assert drawn() == expected
+    assert batches == [12]

@@ -223,10 +223,12 @@ def points_and_lines_geometry(
     target: Framebuffer,
     sizes: np.ndarray | None = None,
     places: np.ndarray | None = None,
+    widths: np.ndarray | None = None,
 ) -> Geometry:
     """Return the geometry with its points or lines set up; they are never culled.
 
-    `sizes` (V,): of points, or None; `places` (L,): of lines of several draws in the line stipple.
+    `sizes` (V,): of points, or None; `places` (L,): of lines of several draws in the line stipple; `widths` (L,): of
+    lines whose draws differ in it, or None.
     """
     state, primitives = command.state, clipped.triangles
     ids = np.arange(len(primitives), dtype=np.int32)
@@ -235,7 +237,7 @@ def points_and_lines_geometry(
         geometry, triangles = set_up_points_of(geometry, primitives[:, 0], ids, sizes, state, target.flipped)
     else:
         places = stipple_places(clipped, command) if places is None else places
-        geometry, triangles = set_up_lines_of(geometry, primitives, ids, places, state, target.flipped)
+        geometry, triangles = set_up_lines_of(geometry, primitives, ids, places, widths, state, target.flipped)
     return geometry._replace(triangles=triangles)
 
 
@@ -279,7 +281,7 @@ def outlined_geometry(
     sizes = None if sizes is None else sizes[clipped.triangles].reshape(-1)
     point_ids, line_ids = outlined.points // 3, outlined.lines[:, 0] // 3
     geometry, points = set_up_points_of(geometry, outlined.points, point_ids, sizes, state, flipped)
-    geometry, lines = set_up_lines_of(geometry, outlined.lines, line_ids, outlined.places, state, flipped)
+    geometry, lines = set_up_lines_of(geometry, outlined.lines, line_ids, outlined.places, None, state, flipped)
     place = 0 if outlined.ends_stipple else geometry.stipple_place
     return geometry._replace(triangles=merge_by_id([filled, lines, points]), stipple_place=place)
 

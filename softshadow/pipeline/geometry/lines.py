@@ -8,7 +8,7 @@ is two triangles that share a depth plane, so lines need no fill, shading or his
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.jit import kernel
+from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
 from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
 from softshadow.pipeline.geometry.facing import REACH
@@ -97,12 +97,7 @@ def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
     return n_pieces, n_vertices
 
 
-def whole_width(width: float) -> int:
-    """Return the width of a drawn line in pixels: rounded, a half up, 1 to 255; NaN counts as 1, as in Mesa."""
-    return max(1, int(min(width + 0.5, WIDEST_LINE))) if width > 0 else 1
-
-
-def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: float) -> Setup:
+def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, widths: np.ndarray) -> Setup:
     """Return the two triangles of each line that has an area.
 
     Parameters
@@ -110,16 +105,15 @@ def set_up_lines(window: np.ndarray, lines: np.ndarray, ids: np.ndarray, width: 
     window : (V, 4) window x, y (stored rows), z, 1/w
     lines : (L, 2) int32
     ids : (L,) int32, copied to the triangles
-    width : in pixels, see `whole_width`
+    widths : (L,) float64, in pixels, see `whole_width`
     """
-    across = whole_width(width) << SUBPIXEL_BITS
     setup = empty_setup(2 * len(lines), window.dtype)
-    n_triangles = line_triangles(window, lines, ids, across, *setup, np.empty(8, np.int64))
+    n_triangles = line_triangles(window, lines, ids, widths, *setup, np.empty(8, np.int64))
     return Setup(*[array[:n_triangles] for array in setup])
 
 
 @kernel
-def line_triangles(window, lines, ids, across, corners, vertices, depth, front, triangle_ids, quad):
+def line_triangles(window, lines, ids, widths, corners, vertices, depth, front, triangle_ids, quad):
     """Fill the arrays of `Setup`; return the number of triangles. `quad` (8,) is scratch."""
     t = 0
     for n in range(lines.shape[0]):
@@ -132,7 +126,7 @@ def line_triangles(window, lines, ids, across, corners, vertices, depth, front, 
         dx, dy, over_area = line_gradient(window, a, b)
         if not finite or not np.isfinite(over_area):
             continue
-        line_corners(window, a, b, across, quad)
+        line_corners(window, a, b, whole_width(widths[n]) << SUBPIXEL_BITS, quad)
         # ends that were moved past each other leave nothing of the line
         if (quad[0] - quad[2]) * (quad[5] - quad[1]) - (quad[4] - quad[0]) * (quad[1] - quad[3]) <= 0:
             continue
@@ -146,6 +140,12 @@ def line_triangles(window, lines, ids, across, corners, vertices, depth, front, 
             depth[t, 3], front[t], triangle_ids[t] = ZERO, 1, ids[n]
             t += 1
     return t
+
+
+@inlined
+def whole_width(width):
+    """Return the width of a drawn line in pixels: rounded, a half up, 1 to 255; NaN counts as 1, as in Mesa."""
+    return max(1, int(min(width + 0.5, WIDEST_LINE))) if width > 0 else 1
 
 
 @kernel

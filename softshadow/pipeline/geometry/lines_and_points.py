@@ -35,34 +35,42 @@ COLUMNS_OF_UNIT = 4
 
 
 def set_up_lines_of(
-    geometry: Geometry, lines: np.ndarray, ids: np.ndarray, places: np.ndarray, state: State, flipped: bool
+    geometry: Geometry,
+    lines: np.ndarray,
+    ids: np.ndarray,
+    places: np.ndarray,
+    widths: np.ndarray | None,
+    state: State,
+    flipped: bool,
 ) -> tuple[Geometry, Setup]:
     """Return the triangles of lines (L, 2) int32, and the geometry with the vertices and values that they need.
 
-    `ids` (L,) int32 are copied to the triangles; `places` (L,) int32: see `line_stipple.cut_into_pieces`.
+    `ids` (L,) int32 are copied to the triangles; `places` (L,) int32: see `line_stipple.cut_into_pieces`; `widths` (L,)
+    float64 are those of the lines if draws differ in it; else None.
     """
-    width = state.polygon.line_width
+    widths = np.full(len(lines), state.polygon.line_width, np.float64) if widths is None else widths
     stippled, smooth = is_stippled(state.lines), state.lines.smooth
     if not stippled and not smooth:
-        return geometry, set_up_lines(geometry.window, lines, ids, width)
+        return geometry, set_up_lines(geometry.window, lines, ids, widths)
     window, values, provoking = geometry.window, geometry.values, geometry.provoking[ids]
     if stippled:
         before = geometry.stipple_place
         pieces = cut_into_pieces(window, values, lines, provoking, geometry.flat, places, state.lines, before)
         geometry, ids = geometry._replace(stipple_place=pieces.counter), ids[pieces.line]
+        widths = widths[pieces.line]
         lines = np.arange(2 * len(ids), dtype=np.int32).reshape(-1, 2)
         window, values, provoking = pieces.window, pieces.values, np.ascontiguousarray(lines[:, 0])
     if smooth:
         geometry = geometry._replace(line_places=values.shape[1])
         flat, corners = geometry.flat, _room_for_corners(geometry, len(lines), INSIDE_LINE)
         first = len(geometry.window)
-        smooth_lines(window, values, lines, provoking, flat, width, *(rows[first:] for rows in corners))
+        smooth_lines(window, values, lines, provoking, flat, widths, *(rows[first:] for rows in corners))
         return _with_rectangles(geometry, *corners, LINE_TRIANGLES, ids, "line", flipped)
     lines += np.int32(len(geometry.window))
     geometry = geometry._replace(
         window=append_rows(geometry.window, window), values=np.concatenate([geometry.values, values])
     )
-    return geometry, set_up_lines(geometry.window, lines, ids, width)
+    return geometry, set_up_lines(geometry.window, lines, ids, widths)
 
 
 def set_up_points_of(

@@ -32,7 +32,7 @@ def smooth_lines(
     lines: np.ndarray,
     provoking: np.ndarray,
     flat: np.ndarray,
-    width: float,
+    widths: np.ndarray,
     corners: np.ndarray,
     corner_values: np.ndarray,
 ) -> None:
@@ -43,15 +43,17 @@ def smooth_lines(
     window, values : (V, 4) and (V, k) of vertices
     lines : (L, 2) int32, vertices
     provoking : (L,) int32, the vertices whose values the columns take that are `flat` (at least k)
+    widths : (L,) float64, in pixels
     corners, corner_values : receive window (4L, 4) and values (4L, k + 4), of which the last are the places
     """
     real = window.dtype.type
-    half_width = real(1) if width <= 1 else real(0.5) * real(min(width, LARGEST_SIZE)) + real(0.5)
-    write_line_corners(window, values, lines, provoking, flat, half_width, corners, corner_values)
+    wide = real(0.5) * np.minimum(widths, LARGEST_SIZE).astype(real) + real(0.5)
+    half_widths = np.where(widths <= 1, real(1), wide)
+    write_line_corners(window, values, lines, provoking, flat, half_widths, corners, corner_values)
 
 
 @kernel
-def write_line_corners(window, values, lines, provoking, flat, half_width, corners, corner_values):
+def write_line_corners(window, values, lines, provoking, flat, half_widths, corners, corner_values):
     """Write what `smooth_lines` does.
 
     The angles of lines are computed by the functions of the C library, as Mesa does; interpreted, they are those of
@@ -59,7 +61,7 @@ def write_line_corners(window, values, lines, provoking, flat, half_width, corne
     """
     k = values.shape[1]
     for n in range(lines.shape[0]):
-        a, b, source = lines[n, 0], lines[n, 1], provoking[n]
+        a, b, source, half_width = lines[n, 0], lines[n, 1], provoking[n], half_widths[n]
         x, y = window[b, 0] - window[a, 0], window[b, 1] - window[a, 1]
         angle = math.atan2(y, x)
         corners[4 * n, 0], corners[4 * n, 1] = math.cos(angle), math.sin(angle)

@@ -132,6 +132,7 @@ class Program:
             self.switch(gl.GL_LIGHTING)
         elif kind == 8:
             gl.glPointSize(self.rng.uniform(0.1, 6))
+            gl.glLineWidth(self.environment.uniform(0.1, 6))
         else:
             gl.glViewport(*self.rng.integers(-4, SIZE, 2).tolist(), *self.rng.integers(1, SIZE, 2).tolist())
             gl.glDepthRange(*self.rng.random(2).tolist())

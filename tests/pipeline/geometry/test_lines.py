@@ -26,7 +26,9 @@ def coverage(positions: list[tuple[float, float]], width: float = 1, strip: bool
     window[:, :2] = positions
     lines = assemble_lines(gl.GL_LINE_STRIP if strip else gl.GL_LINES, len(positions))
     with np.errstate(all="ignore"):  # as in pipeline.draw: a line without length
-        setup = set_up_lines(window, lines, np.arange(len(lines), dtype=np.int32), width)
+        setup = set_up_lines(
+            window, lines, np.arange(len(lines), dtype=np.int32), np.full(len(lines), width, np.float64)
+        )
     fragments = list_fragments(setup, Region(0, SIZE, 0, SIZE, 1))
     counts = np.zeros((SIZE, SIZE), int)
     np.add.at(counts, (fragments.row, fragments.column), 1)

@@ -18,7 +18,14 @@ from softshadow.jit import read_only
 from softshadow.pipeline.commands import NO_UNIFORMS, Draw
 from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, WIDTH_OF_POLYGONS, Run, least_compared, width_of
+from softshadow.pipeline.fast.batch.run import (
+    PLAIN_POINTS,
+    WIDTH_OF_LINES,
+    WIDTH_OF_POLYGONS,
+    Run,
+    least_compared,
+    width_of,
+)
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
 from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices
@@ -136,7 +143,7 @@ def geometry_of(
         known = None
     if known and (known.cut is not None or not run.writes_color):
         return _batch(_repeated_geometry(run, setting, draws, views, target, known))
-    table, most = table_of(run, draws, views), _most_primitives(draws)
+    table, most = table_of(run, draws, views), sum(_primitive_counts(draws))
     n = len(table.positions)
     command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
     inputs = _inputs(table)
@@ -183,7 +190,8 @@ def geometry_of(
     if not is_polygons:
         sizes = None if sizes is None else clipped.values[:, -1]
         places = _stipple_places(draws, clipped.source) if run.stippled else None
-        return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places))
+        widths = _line_widths(draws, clipped.source) if width == WIDTH_OF_LINES else None
+        return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places, widths))
     if not is_filled:
         outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
         return Batch(outlined, -1, geometry.provoking)
@@ -273,12 +281,20 @@ def _point_sizes(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
     return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
 
 
+def _line_widths(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
+    """Return the widths (L,) of clipped lines where draws differ in it, else None."""
+    widths = [draw.state.polygon.line_width for draw in draws]
+    if len(set(widths)) == 1:
+        return None
+    return np.repeat(np.array(widths, np.float64), _primitive_counts(draws))[source]
+
+
 def _stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
     """Return the places of clipped lines in the line stipple, as for draws on their own.
 
     A strip or loop whose first line is clipped goes on where the draw before it ended.
     """
-    counts = [primitive_count(draw.mode, _named_vertices(draw)) for draw in draws]
+    counts = _primitive_counts(draws)
     of_line = np.repeat(np.arange(len(draws)), counts)[source]
     firsts = (np.cumsum(counts) - counts)[of_line]
     separate = np.array([draw.mode == gl.GL_LINES for draw in draws])[of_line]
@@ -374,9 +390,9 @@ def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
     return primitives[: assemble_lines_and_points(table.numbers, table.indices, primitives)]
 
 
-def _most_primitives(draws: Sequence[Draw]) -> int:
-    """Return how many primitives the draws have before clipping, at most."""
-    return sum([primitive_count(draw.mode, _named_vertices(draw)) for draw in draws])
+def _primitive_counts(draws: Sequence[Draw]) -> list[int]:
+    """Return how many primitives each draw has before clipping, at most."""
+    return [primitive_count(draw.mode, _named_vertices(draw)) for draw in draws]
 
 
 def _named_vertices(draw: Draw) -> int:

@@ -2,7 +2,7 @@
 
 The draws of a run are processed together. They have the same state but for their lighting, viewport and scissor box, so
 they share a program of the fixed function and nearly all that happens to fragments. Their matrices, vertices, current
-attributes, viewports and lights differ, and the sizes of points.
+attributes, viewports and lights differ, and the widths of lines and sizes of points.
 """
 
 from __future__ import annotations
@@ -246,11 +246,11 @@ def width_of(mode: int) -> int:
 def groups_of(command: Draw) -> tuple[object, ...]:
     """Return the groups of a draw's state that are those of the run, without what does not matter.
 
-    That is the equations of clip planes that are off, and for points all of `Polygon`.
+    That is the equations of clip planes that are off, and for lines and points all of `Polygon`.
     """
     state = command.state
     groups: tuple[object, ...] = _groups_of(state)
-    if command.mode == gl.GL_POINTS:
+    if command.mode not in POLYGONS:
         groups = (*groups[:POLYGON], PLAIN_POLYGON, *groups[POLYGON + 1 :])
     if True not in state.clip_planes.enabled:
         groups = (*groups[:CLIP_PLANES], NO_CLIP_PLANES, *groups[CLIP_PLANES + 1 :])
