@@ -104,6 +104,8 @@ class Program:
         gl.glLineStipple(2, 0x3B5D)
         gl.glPolygonStipple(self.rng.bytes(128))
         gl.glFogi(gl.GL_FOG_MODE, self.one_of(gl.GL_LINEAR, gl.GL_EXP))
+        gl.glFogi(gl.GL_FOG_COORD_SRC, int(self.environment.choice((gl.GL_FRAGMENT_DEPTH, gl.GL_FOG_COORD))))
+        (gl.glEnable if self.environment.random() < 0.3 else gl.glDisable)(gl.GL_COLOR_SUM)
         gl.glColorMask(*[self.chance(0.9)] * 4)
 
     def set_tests(self) -> None:
@@ -209,9 +211,17 @@ class Program:
             gl.glTranslatef(*self.numbers(3))
             gl.glMatrixMode(gl.GL_MODELVIEW)
 
+    def set_secondary(self) -> None:
+        """Set the secondary colour and the fog coordinate, or one of them, or none."""
+        if self.environment.random() < 0.2:
+            gl.glSecondaryColor3f(*self.environment.uniform(-0.5, 1.5, 3).tolist())
+        if self.environment.random() < 0.2:
+            gl.glFogCoordf(self.environment.uniform(-1, 1))
+
     def draw_something(self) -> None:
         gl.glColor4f(*self.numbers(4, 0))
         gl.glNormal3f(*self.numbers(3))
+        self.set_secondary()
         if self.chance(0.2):
             side = self.one_of(gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)
             gl.glMaterialfv(side, self.one_of(gl.GL_SPECULAR, gl.GL_DIFFUSE), self.numbers(4, 0))
@@ -223,6 +233,7 @@ class Program:
             gl.glBegin(mode)
             for _ in range(n):
                 gl.glTexCoord2f(*self.numbers(2))
+                self.set_secondary()
                 gl.glVertex3f(*self.numbers(3))
             gl.glEnd()
             return
@@ -237,6 +248,14 @@ class Program:
             if self.chance(p):
                 gl.glEnableClientState(array)
                 point(*arguments, np.array(self.numbers(16 * width), np.float32).reshape(-1, width))
+        for array, point, width in (
+            (gl.GL_SECONDARY_COLOR_ARRAY, partial(gl.glSecondaryColorPointer, 3), 3),
+            (gl.GL_FOG_COORD_ARRAY, gl.glFogCoordPointer, 1),
+        ):
+            gl.glDisableClientState(array)
+            if self.environment.random() < 0.3:
+                gl.glEnableClientState(array)
+                point(gl.GL_FLOAT, 0, self.environment.uniform(-0.5, 1.5, (16, width)).astype(np.float32))
         if self.chance():
             indices = self.rng.integers(0, 16, n).astype(np.uint32)
             gl.glDrawElements(mode, n, gl.GL_UNSIGNED_INT, indices)

@@ -53,7 +53,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
-from softshadow.programs.fixed_function import has_secondary, is_replaced, point_sizes
+from softshadow.programs.fixed_function import is_replaced, point_sizes
 
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
@@ -190,7 +190,7 @@ def geometry_of(
     if not is_polygons:
         sizes = None if sizes is None else clipped.values[:, -1]
         places = _stipple_places(draws, clipped.source) if run.stippled else None
-        widths = _line_widths(draws, clipped.source) if width == WIDTH_OF_LINES else None
+        widths = _line_widths(run, draws, clipped.source) if width == WIDTH_OF_LINES else None
         return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places, widths))
     if not is_filled:
         outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
@@ -281,10 +281,10 @@ def _point_sizes(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
     return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
 
 
-def _line_widths(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
-    """Return the widths (L,) of clipped lines where draws differ in it, else None."""
+def _line_widths(run: Run, draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
+    """Return the widths (L,) of clipped lines where one is not that of the run, else None."""
     widths = [draw.state.polygon.line_width for draw in draws]
-    if len(set(widths)) == 1:
+    if set(widths) == {run.state.polygon.line_width}:
         return None
     return np.repeat(np.array(widths, np.float64), _primitive_counts(draws))[source]
 
@@ -373,7 +373,7 @@ def _inputs(table: Table) -> tuple[Any, ...]:
     return (
         table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
         table.planes, table.user_planes, table.unit_rows, table.positions, table.colors, table.normals,
-        table.texcoords, table.scales, table.shifts,
+        table.secondaries, table.fog_coordinates, table.texcoords, table.scales, table.shifts,
     )  # fmt: skip
 
 
@@ -402,11 +402,12 @@ def _named_vertices(draw: Draw) -> int:
 
 def _flat_columns(run: Run) -> np.ndarray:
     """Return which columns of the varyings are not interpolated (`programs.fixed_function.process_vertices`)."""
-    lighting, n_color = run.state.lighting, 7 if run.lit and has_secondary(run.state) else 4
+    lighting, n_color = run.state.lighting, 7 if run.layout.secondary else 4
     others = int(run.writes_color and run.state.fog.enabled) + 4 * run.repeats_primary
     flat = np.zeros(n_color + 4 * len(run.units) + others, bool)
     one_color = not lighting.enabled and not run.arrays.color
-    flat[:n_color] = lighting.shade_model == gl.GL_FLAT or one_color
+    flat[:4] = lighting.shade_model == gl.GL_FLAT or one_color
+    flat[4:n_color] = lighting.shade_model == gl.GL_FLAT or not (lighting.enabled or run.arrays.secondary)
     for n, unit in enumerate(run.units):
         generates = any(gen.enabled for gen in run.state.units[unit.index].gen)
         is_constant = not run.arrays.texcoords[n] and run.arrays.identities[n] and not generates

@@ -18,11 +18,14 @@ import numpy as np
 from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
 from softshadow.pipeline.fast.batch.vertices import (
+    BY_COORDINATE,
+    BY_DISTANCE,
     EYE_LINEAR,
     HAS_ARRAY,
+    NO_FOG,
     NORMAL_MAP,
     OBJECT_LINEAR,
     REFLECTION_MAP,
@@ -72,11 +75,13 @@ LEAST_HEIGHT = 1 / 8  # half pixels that no rounding makes of nothing: steps of 
 class Arrays(NamedTuple):
     """Which attributes of a draw are arrays, not constants: colour, normal, coordinates of each unit in use.
 
-    `identities` says of each unit whether its texture matrix is the identity.
+    `secondary` is true only where the colours depend on secondary ones. `identities` says of each unit whether its
+    texture matrix is the identity.
     """
 
     color: bool
     normal: bool
+    secondary: bool
     texcoords: tuple[bool, ...]
     identities: tuple[bool, ...]
 
@@ -91,6 +96,7 @@ class Run:
     units : the texture units in use
     repeats_primary : bool   the primary colour is among the varyings twice
     writes_color : bool      else no colours are computed
+    reads_secondaries : bool    the colours depend on the secondary colours of the vertices
     arrays : Arrays          of all draws
     unfilled : bool          polygons are stippled, or drawn as their edges or corners (glPolygonMode)
     stippled : bool          lines are cut into pieces by a pattern
@@ -103,6 +109,7 @@ class Run:
         bound = bound_textures(command, storage) if writes_color else {}
         self.units: list[Unit] = units_in_use(self.state, bound) if bound else []
         self._unit_numbers = [unit.index for unit in self.units]
+        self.reads_secondaries = writes_color and self.state.fog.color_sum and not self.state.lighting.enabled
         self.repeats_primary = writes_color and repeats_primary(self.state, self.units)
         self.arrays = self._arrays_of(command)
         self.unfilled = width_of(command.mode) == WIDTH_OF_POLYGONS and passes_stages(self.state)
@@ -113,7 +120,8 @@ class Run:
         self._has_user_planes, self._fills = len(self.user_planes) > 0, is_filled(self.state.polygon)
         self.layout = self._layout(in_eye_space)
         self.across = is_flat and (
-            bool(self.layout.separate)
+            bool(self.lit and self.layout.secondary)
+            or self.arrays.secondary
             or self.repeats_primary
             or ((self.lit or self.arrays.color) and needs_vertex_color(self.state, self.units))
         )
@@ -124,6 +132,7 @@ class Run:
         return Arrays(
             vertices.color.strides[0] != 0,
             vertices.normal.strides[0] != 0,
+            self.reads_secondaries and has_secondaries(vertices),
             tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
             self._identities_of(command),
         )
@@ -137,9 +146,10 @@ class Run:
         settings = [state.units[number] for number in self._unit_numbers]
         return Layout(
             lit=int(lit),
-            separate=int(lit and has_secondary(state)),
+            separate=int(lit and state.lighting.color_control == gl.GL_SEPARATE_SPECULAR_COLOR),
+            secondary=int(self.writes_color and has_secondary(state)),
             two_side=int(lit and state.lighting.two_side),
-            fog=int(self.writes_color and state.fog.enabled),
+            fog=self._fog(),
             colors=int(self.arrays.color),
             normals=int(self.arrays.normal),
             units=len(self.units),
@@ -149,6 +159,12 @@ class Run:
             repeats_primary=int(self.repeats_primary),
             ignored=NEAR_FAR if state.depth.clamp else 0,
         )
+
+    def _fog(self) -> int:
+        fog = self.state.fog
+        if not (self.writes_color and fog.enabled):
+            return NO_FOG
+        return BY_DISTANCE if fog.source == gl.GL_FRAGMENT_DEPTH else BY_COORDINATE
 
     @staticmethod
     def _is_identity(matrix: np.ndarray) -> bool:
@@ -230,12 +246,18 @@ class Run:
         return one is other or (
             one.color.strides == other.color.strides
             and one.normal.strides == other.normal.strides
+            and (not self.reads_secondaries or has_secondaries(one) == has_secondaries(other))
             and (
                 one.texcoords is other.texcoords
                 or [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
             )
             and not one.materials
         )
+
+
+def has_secondaries(vertices: Vertices) -> bool:
+    """Return whether vertices have secondary colours that may differ."""
+    return vertices.secondary is not None and vertices.secondary.strides[0] != 0
 
 
 def width_of(mode: int) -> int:
@@ -343,9 +365,6 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     if not can_run(command) or not target.attachments:
         return False
     if not _are_covered(command.mode, state) or first_provokes(state):
-        return False
-    fog = state.fog
-    if fog.color_sum or (fog.enabled and fog.source != gl.GL_FRAGMENT_DEPTH):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)

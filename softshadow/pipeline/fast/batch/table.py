@@ -15,6 +15,7 @@ from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch import lighting
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.vertices import (
+    BY_COORDINATE,
     COLOR,
     END,
     FLOATS,
@@ -50,8 +51,9 @@ class Table(NamedTuple):
     numbers (D, 10) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
     user_planes (P, 4): the clip planes of all draws in clip space; positions (V, 4), colors (V, 4), normals (V, 3),
-    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; indices (I,) int32;
-    scales (W, 3), shifts (W, 3): of `Views`.
+    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; secondaries (V, 4),
+    fog_coordinates (V,): no rows where no column depends on them; indices (I,) int32; scales (W, 3), shifts (W, 3): of
+    `Views`.
     """
 
     layout: Layout
@@ -67,6 +69,8 @@ class Table(NamedTuple):
     positions: np.ndarray
     colors: np.ndarray
     normals: np.ndarray
+    secondaries: np.ndarray
+    fog_coordinates: np.ndarray
     texcoords: np.ndarray
     indices: np.ndarray
     scales: np.ndarray
@@ -135,6 +139,8 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
+        _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, BLACK),
+        _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, ZERO),
         _texcoords(run, vertices, int(numbers[-1, END])),
         _joined([draw.indices for draw in draws if draw.indices is not None], reads_indices, NO_INDICES),
         views.scales,
@@ -154,7 +160,8 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
     return np.concatenate(matrices).reshape(-1, 16)
 
 
-NO_ROWS, NO_INDICES = np.empty((0, 4), np.float32), np.empty(0, np.int32)
+NO_ROWS, NO_INDICES, NO_COORDINATES = np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL)
+BLACK, ZERO = np.zeros(4, REAL), np.zeros((), REAL)
 
 
 def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:
@@ -164,6 +171,20 @@ def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_RO
         return read_only(np.ascontiguousarray(parts[0]))
     joined = scratch((sum(map(len, parts)), *parts[0].shape[1:]), parts[0].dtype)
     return read_only(np.concatenate(parts, out=joined))
+
+
+def _optional(
+    vertices: Sequence[Vertices], name: str, is_read: bool, nothing: np.ndarray, initial: np.ndarray
+) -> np.ndarray:
+    """Return the values of an attribute that not all vertices have, or `nothing` if no column depends on it."""
+    if not is_read:
+        return read_only(nothing)
+    given = [getattr(each, name) for each in vertices]
+    rows = [
+        np.broadcast_to(initial, (len(each.position), *initial.shape)) if values is None else values
+        for each, values in zip(vertices, given, strict=True)
+    ]
+    return read_only(np.concatenate(rows, dtype=REAL))
 
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:

@@ -40,12 +40,14 @@ UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
 # how a texture coordinate is generated; from EYE_LINEAR on from the eye position, from SPHERE_MAP on from the normal
 SPECIFIED, OBJECT_LINEAR, EYE_LINEAR, SPHERE_MAP, REFLECTION_MAP, NORMAL_MAP = range(6)
 HAS_ARRAY = 4  # the column after those of the four coordinates: whether a unit has an array of them
+NO_FOG, BY_DISTANCE, BY_COORDINATE = range(3)
 
 
 class Layout(NamedTuple):
     """What all draws of a table have in common, as plain numbers.
 
-    lit, separate, two_side, fog: the state; colors, normals: whether they are arrays; units: how many are in use;
+    lit, two_side: the state; separate: lighting has a secondary colour; secondary: there are columns for one; fog:
+    NO_FOG, BY_DISTANCE or BY_COORDINATE; colors, normals: whether they are arrays; units: how many are in use;
     in_eye_space: a unit generates coordinates there; maps_normals: from normals; reflects_r: see
     `texture_coordinates.Normals`; repeats_primary: see `fixed_function.repeats_primary`; ignored: clip codes that do
     not clip.
@@ -53,6 +55,7 @@ class Layout(NamedTuple):
 
     lit: int
     separate: int
+    secondary: int
     two_side: int
     fog: int
     colors: int
@@ -109,7 +112,8 @@ def transformed(m, i, x, y, z, w):
 @kernel
 def process_vertices(
     begin, end, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-    positions, colors, normals, texcoords, scales, shifts, clip, codes, window, values, back,
+    positions, colors, normals, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes, window, values,
+    back,
 ):  # fmt: skip
     """Write clip position, clip code, window position and varyings of the vertices [begin, end) of all draws."""
     for d in range(numbers.shape[0]):
@@ -138,7 +142,12 @@ def process_vertices(
                 v = np.uint64(vertex)
                 for c in range(4):
                     values[v, c] = clamped(colors[v, c] if layout.colors else row[COLOR + c])
-        column = 7 if layout.separate else 4
+        if layout.secondary and not layout.separate:
+            for vertex in range(first, last):
+                v = np.uint64(vertex)
+                for c in range(3):  # Mesa's vertex program of lighting writes none, which reads as 0
+                    values[v, 4 + c] = ZERO if layout.lit else clamped(secondaries[v, c])
+        column = 7 if layout.secondary else 4
         for unit in range(layout.units):
             write_coordinates(
                 first, last, generated[unit], planes[unit], unit_rows[d, unit], modelview, matrix_at(row, INVERSE),
@@ -146,13 +155,18 @@ def process_vertices(
                 layout.reflects_r, row[NORMAL:PRODUCT], positions, normals, texcoords[unit], values, column,
             )  # fmt: skip
             column += 4
-        if layout.fog:
+        if layout.fog == BY_COORDINATE:
+            for vertex in range(first, last):
+                v = np.uint64(vertex)
+                values[v, column] = abs(fog_coordinates[v])
+        elif layout.fog:
             from_eye = layout.lit and flags[numbers[d, LIGHTING], NEEDS_EYE]
             for vertex in range(first, last):
                 v = np.uint64(vertex)
                 x, y, z, w = positions[v, 0], positions[v, 1], positions[v, 2], positions[v, 3]
                 distance = transformed(modelview, 2, x, y, z, w) if from_eye else plane_dot(modelview, 2, x, y, z, w)
                 values[v, column] = abs(distance)
+        if layout.fog:
             column += 1
         if layout.repeats_primary:
             for vertex in range(first, last):
