@@ -18,16 +18,19 @@ from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition, current
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, spelled_like_gl
+from softshadow.gl.conversions import single, singles
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_memory import source
 from softshadow.gl.raster_draws import (
     EDGES,
     KEPT_VERTICES,
+    MOST_VERTICES,
     attributes_of,
     draw_at,
     indices_of,
     normalized,
+    packed,
     positions,
     raster_vertices,
 )
@@ -38,7 +41,7 @@ from softshadow.pixel_store import PixelStore, bitmap_rows
 MARGIN = 256  # pixels outside the window in which characters often begin or end
 KEPT_PLACES = 64  # of a character, where it has been drawn
 KEPT_BYTES = 512  # of a bitmap up to which it may be a character, which is drawn again
-ROUNDING = np.float32(0.0001)  # of Mesa: so much below a whole number is still that number
+ROUNDING = single(0.0001)  # of Mesa: so much below a whole number is still that number
 
 
 class PixelQuads:
@@ -47,24 +50,25 @@ class PixelQuads:
     Attributes
     ----------
     quads : (N, 4) int           left, bottom, right, top
+    n_vertices, has_bits : 4 N, whether there are quads
     is_small : bool              whether it may be a character
     x, y : (4 N,) int            of the corners in Mesa's order; only of a small one
     """
 
-    __slots__ = ("_bounds", "_placed", "is_small", "quads", "x", "y")
+    __slots__ = ("_bounds", "_placed", "has_bits", "is_small", "n_vertices", "quads", "x", "y")
 
     def __init__(self, quads: np.ndarray) -> None:
-        self.quads = quads
-        self.is_small = 0 < 4 * len(quads) <= KEPT_VERTICES
+        self.quads, self.n_vertices, self.has_bits = quads, 4 * len(quads), len(quads) > 0
+        self.is_small = 0 < self.n_vertices <= KEPT_VERTICES
         if self.is_small:
             self.x, self.y = (quads[:, EDGES[:, axis]].reshape(-1).astype(np.intp) for axis in (0, 1))
-        if len(quads):
+        if self.has_bits:
             self._bounds = *quads[:, :2].min(axis=0).tolist(), *quads[:, 2:].max(axis=0).tolist()
         self._placed: dict[tuple[Any, ...], Vertices] = {}  # the latest, by place and size of the framebuffer
 
     def vertices(self, left: int, bottom: int, size: tuple[int, int], raster: RasterPosition, real: Any) -> Vertices:
         """Return the corners of the quads so many pixels from the corner; the same object if a text is drawn again."""
-        place, n = (left, bottom, size, real), 4 * len(self.quads)
+        place, n = (left, bottom, size, real), self.n_vertices
         before = self._placed.get(place)
         color, texcoords = attributes_of(raster, n, real)
         if before is not None and before.color is color and before.texcoords is texcoords:
@@ -112,19 +116,30 @@ class Text:
         self._first, self._real = draw_of_pixels(context, pixels, left, bottom), cast(Any, context.real)
         self._raster, self._labels = context.current.raster, context.labels.copy()
         self.size = context.objects.framebuffers[self._first.state.draw_framebuffer].size
-        self._parts, self._n_vertices = [(pixels, left, bottom)], 4 * len(pixels.quads)
+        self._parts, self._n_vertices = [(pixels, left, bottom)], pixels.n_vertices
         self._are_near = pixels.is_near(left, bottom, self.size)
 
     def add(self, context: Context, pixels: PixelQuads, left: int, bottom: int) -> bool:
         """Add a bitmap; return False, and do nothing, if it must be a draw of its own."""
-        first, raster, n_vertices = self._raster, context.current.raster, self._n_vertices + 4 * len(pixels.quads)
-        is_alike = raster.color is first.color and raster.texcoords is first.texcoords
-        if not is_alike or raster.window[2] != first.window[2] or context.labels != self._labels:
+        raster, n_vertices = context.current.raster, self._n_vertices + pixels.n_vertices
+        if not self._is_alike(raster) or context.labels != self._labels:
             return False
-        if n_vertices > KEPT_VERTICES or not (self._are_near and pixels.is_near(left, bottom, self.size)):
+        if n_vertices > MOST_VERTICES or not (self._are_near and pixels.is_near(left, bottom, self.size)):
             return False
         self._parts.append((pixels, left, bottom))
         self._n_vertices = n_vertices
+        return True
+
+    def _is_alike(self, raster: RasterPosition) -> bool:
+        """Return whether a raster position has the depth, colour and texture coordinates of the first one."""
+        first = self._raster
+        if raster.window[2] != first.window[2]:
+            return False
+        if raster.color is first.color and raster.texcoords is first.texcoords:
+            return True
+        if packed(raster.color, *raster.texcoords) != packed(first.color, *first.texcoords):
+            return False
+        self._raster = raster  # is compared with those that follow, which are often the same
         return True
 
     def command(self) -> Draw:
@@ -132,7 +147,7 @@ class Text:
         if len(self._parts) == 1:
             return self._first
         pixels, lefts, bottoms = zip(*self._parts, strict=True)
-        counts = [4 * len(each.quads) for each in pixels]
+        counts = [each.n_vertices for each in pixels]
         x = np.concatenate([each.x for each in pixels]) + np.repeat(lefts, counts)
         y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
         position = _near_positions(x, y, self.size, self._real)
@@ -176,6 +191,7 @@ def glBitmap(
         content = bitmap.tobytes() if isinstance(bitmap, np.ndarray) else bitmap
         are_kept = isinstance(content, bytes) and len(content) <= KEPT_BYTES
         pixels = (_kept_pixels if are_kept else _pixels)(content, context.unpack_store, int(width), int(height))
+    xorig, yorig, xmove, ymove = singles((xorig, yorig, xmove, ymove))
     _bitmap(width, height, xorig, yorig, xmove, ymove, pixels)
 
 
@@ -190,19 +206,20 @@ def _bitmap(
     if width < 0 or height < 0:
         fail(gl.GL_INVALID_VALUE, "glBitmap", f"width={width}, height={height}: expected 0 or more")
         return
-    if not context.current.raster.valid:
+    (x, y, z, w), valid, distance, color, secondary, texcoords = context.current.raster
+    if not valid:
         return
     name = context.groups[""].fields["draw_framebuffer"]
     if name != DEFAULT and framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
         return
-    x, y, *rest = context.current.raster.window  # the sums below are in float32
-    if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and len(pixels.quads):
-        left = math.floor(x + ROUNDING - np.float32(xorig))
-        bottom = math.floor(y + ROUNDING - np.float32(yorig))
+    # each sum of two numbers in single precision is rounded once
+    if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and pixels.has_bits:
+        left = math.floor(single(single(x + ROUNDING) - xorig))
+        bottom = math.floor(single(single(y + ROUNDING) - yorig))
         _draw(context, pixels, left, bottom)
-    window = float(x + np.float32(xmove)), float(y + np.float32(ymove)), *rest
-    context.current.raster = context.current.raster._replace(window=window)
+    window = single(x + xmove), single(y + ymove), z, w
+    context.current.raster = RasterPosition(window, True, distance, color, secondary, texcoords)
 
 
 def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:

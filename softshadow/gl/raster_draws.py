@@ -26,13 +26,14 @@ CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 EDGES = 2 * CORNERS + [0, 1]  # of left, bottom, right, top: x and y of each corner
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
 KEPT_VERTICES = 1024  # of a draw; a character has some hundred
+MOST_VERTICES = 1 << 14  # of a text: some hundred characters
 
 
 def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np.ndarray, ...]) -> Vertices:
     """Return vertices from arrays, which become read-only."""
     position.flags.writeable = False
     n = len(position)
-    return Vertices(position, color, _for(n, _normals)(n, position.dtype.type), texcoords)
+    return Vertices(position, color, _for(n, _normals)(_room(n), position.dtype.type)[:n], texcoords)
 
 
 def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Vertices, clamps: bool = False) -> Draw:
@@ -70,7 +71,12 @@ def normalized(pixels: np.ndarray, size: Any, real: Any) -> np.ndarray:
 # -- what is kept ------------------------------------------------------------------------------------------------------
 def _for(n: int, kept: Any) -> Any:
     """Return a function that keeps its results; for more than so many vertices, one that does not."""
-    return kept if n <= KEPT_VERTICES else kept.__wrapped__
+    return kept if n <= MOST_VERTICES else kept.__wrapped__
+
+
+def _room(n: int) -> int:
+    """Return for how many vertices arrays are kept of which `n` vertices have the first rows."""
+    return 1 << (n - 1).bit_length() if KEPT_VERTICES < n <= MOST_VERTICES else n
 
 
 class _LatestAttributes(NamedTuple):
@@ -95,21 +101,22 @@ def attributes_of(raster: RasterPosition, n: int, real: Any) -> tuple[np.ndarray
         _latest_attributes[:] = latest
     arrays = latest[0].arrays.get(n)
     if arrays is None:
-        arrays = _for(n, _attributes)(_packed(raster.color, *raster.texcoords), n, real)
+        color, texcoords = _for(n, _attributes)(packed(raster.color, *raster.texcoords), _room(n), real)
+        arrays = color[:n], tuple([rows[:n] for rows in texcoords])
         if n <= KEPT_VERTICES:
             latest[0].arrays[n] = arrays
     return arrays
 
 
-def _packed(*values: Sequence[float]) -> bytes:
+def packed(*values: Sequence[float]) -> bytes:
     """Return numbers as a key that tells -0 from 0."""
     return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
 
 
-@lru_cache(256)
-def _attributes(packed: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
+@lru_cache(64)
+def _attributes(numbers: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
     """Return n equal colours and n equal texture coordinates of each unit; arrays, since Mesa interpolates them."""
-    values = np.frombuffer(packed).reshape(-1, 4)
+    values = np.frombuffer(numbers).reshape(-1, 4)
     arrays = {row.tobytes(): _repeated(row, n, real) for row in values}
     color, *texcoords = (arrays[row.tobytes()] for row in values)
     return color, tuple(texcoords)
@@ -129,8 +136,8 @@ def _repeated(value: Any, n: int, real: Any) -> np.ndarray:
 
 def indices_of(n_vertices: int) -> np.ndarray:
     """Return the indices of the triangles of quads."""
-    indices: np.ndarray = _for(n_vertices, _indices)(n_vertices // 4)
-    return indices
+    indices: np.ndarray = _for(n_vertices, _indices)(_room(n_vertices) // 4)
+    return indices[: n_vertices // 4 * len(TRIANGLES)]
 
 
 @lru_cache(256)

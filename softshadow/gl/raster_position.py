@@ -35,7 +35,7 @@ def glRasterPos4f(x: float, y: float, z: float, w: float) -> None:
     context = outside_begin("glRasterPos4f")
     if context is None:
         return
-    context.separate()
+    context.flush_vertices()
     context.update_current()
     context.touched |= gl.GL_CURRENT_BIT
     state = context.state
@@ -121,7 +121,7 @@ def glWindowPos3f(x: float, y: float, z: float) -> None:
     context = outside_begin("glWindowPos3f")
     if context is None:
         return
-    context.separate()
+    context.flush_vertices()
     context.update_current()
     view = context.state.viewport
     x, y, z, near = singles((x, y, z, view.near))

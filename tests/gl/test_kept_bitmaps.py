@@ -13,7 +13,7 @@ from softshadow.pipeline.commands import Draw
 KEPT = (bitmaps._kept_pixels, raster_draws._attributes, raster_draws._normals, raster_draws._indices)
 
 
-@pytest.mark.parametrize(("side", "keeps"), [(8, True), (96, False)])
+@pytest.mark.parametrize(("side", "keeps"), [(8, True), (192, False)])
 def test_only_characters_are_kept(side: int, keeps: bool) -> None:
     for kept in KEPT:
         kept.cache_clear()
@@ -89,7 +89,7 @@ class RandomText:
         if kind == 0:
             gl.glColor4f(*numbers)
         elif kind == 1:
-            gl.glRasterPos3f(numbers[0], numbers[1], numbers[2])
+            gl.glRasterPos3f(numbers[0], numbers[1], numbers[2] if numbers[3] > 0 else 0.5)
         elif kind == 2:
             (gl.glEnable if numbers[0] > 0 else gl.glDisable)(gl.GL_BLEND)
             gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE)
@@ -225,3 +225,14 @@ def test_rectangles_of_pixels_have_the_same_state_until_calls_change_it() -> Non
         states = [command.state for command in context.frame.commands if isinstance(command, Draw)]
     assert [state is states[0] for state in states] == [True, True, False, True]
     assert [state.blend.enabled for state in states] == [False, False, True, False]
+
+
+def test_lines_of_a_text_in_one_color_are_one_draw() -> None:
+    with gl.create_context(64, 40) as context:
+        for row, color in enumerate((1, 1, 1, 0.5, 0.5)):
+            gl.glColor3f(color, color, color)
+            gl.glRasterPos2f(-0.9, row / 3 - 0.9)
+            for _ in range(3):
+                gl.glBitmap(8, 2, 0, 0, 9, 0, b"\xaa\0\0\0\x55\0\0\0")
+        draws = [command for command in context.frame.commands if isinstance(command, Draw)]
+    assert [len(draw.vertices.position) for draw in draws] == [4 * 8 * 9, 4 * 8 * 6]
