@@ -215,10 +215,10 @@ def _bitmap(
         return
     # each sum of two numbers in single precision is rounded once
     if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and pixels.has_bits:
-        left = math.floor(single(single(x + ROUNDING) - xorig))
-        bottom = math.floor(single(single(y + ROUNDING) - yorig))
-        _draw(context, pixels, left, bottom)
-    window = single(x + xmove), single(y + ymove), z, w
+        left, bottom = singles((x + ROUNDING, y + ROUNDING))
+        left, bottom = singles((left - xorig, bottom - yorig))
+        _draw(context, pixels, math.floor(left), math.floor(bottom))
+    window = *singles((x + xmove, y + ymove)), z, w
     context.current.raster = RasterPosition(window, True, distance, color, secondary, texcoords)
 
 
