@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from softshadow.gl.conversions import (
     from_unsigned_short,
     vector,
 )
+from softshadow.state import TEXTURE_UNITS
 
 # calls that lists do not record themselves: they make the call for single numbers, or for one more
 MAKE_OTHERS = (
@@ -102,6 +104,21 @@ def _attribute_calls() -> dict[Callable[..., Any], AttributeCall]:
             if not kind.startswith("u"):
                 add(vertex_attributes, f"glNormal3{kind}{v}", NORMAL, 3, bool(v), convert)
     return calls
+
+
+def value_of(call: partial[Any]) -> tuple[int, Values] | None:
+    """Return the slot and the value of the attribute that one of `CALLS` sets; None if only the call can judge them."""
+    kind, arguments = CALLS[call.func], call.args
+    slot = kind.slot
+    if call.keywords:
+        return None
+    try:
+        if slot is None:
+            slot, arguments = TEXCOORD + int(arguments[0]) % TEXTURE_UNITS, arguments[1:]
+        values = kind.values(arguments)
+    except Exception:  # the call itself raises the same when the list is called
+        return None
+    return None if values is None else (slot, values)
 
 
 CALLS = _attribute_calls()

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import COLOR, NORMAL, POSITION, SLOT_NAMES, TEXCOORD
+from softshadow.context.arrays import COLOR, NORMAL, POSITION, SLOT_NAMES
 from softshadow.gl.calls import NUMBERS
 from softshadow.gl.immediate import MODES, consecutive_indices
-from softshadow.gl.list_calls import BEGIN, CALLS, END, Values
+from softshadow.gl.list_calls import BEGIN, CALLS, END, Values, value_of
 from softshadow.gl.list_joining import joined
 from softshadow.gl.list_primitives import ListPrimitive, with_similar_joined
+from softshadow.gl.list_vertices import with_mixed_primitives
 from softshadow.gl.textures import glBindTexture
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
-from softshadow.state import TEXTURE_UNITS
 
 
 def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
@@ -42,7 +42,7 @@ def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Ca
             begin = -1
         elif function not in CALLS:
             begin = -1
-    return with_similar_joined(_without_repeats(_with_joined(compiled)))
+    return with_mixed_primitives(context, with_similar_joined(_without_repeats(_with_joined(compiled))))
 
 
 def _without_repeats(calls: list[Any]) -> list[Callable[[], Any]]:
@@ -126,7 +126,7 @@ def _has_same_attributes(first: Any, second: ListPrimitive) -> bool:
 def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
     """Return a pair of a list as arrays; None if it is empty, or has arguments that may be wrong."""
     begin, *inner, end = calls
-    if len(begin.args) != 1 or any(map(_has_names, calls)) or end.args or begin.args[0] not in MODES:
+    if len(begin.args) != 1 or begin.keywords or end.args or end.keywords or begin.args[0] not in MODES:
         return None
     columns: dict[int, list[Values]] = {POSITION: []}
     starts: dict[int, int] = {}
@@ -134,16 +134,10 @@ def _primitive(context: Context, calls: list[Any]) -> ListPrimitive | None:
     sizes: dict[str, int] = {}
     positions = columns[POSITION]
     for call in inner:
-        kind, arguments = CALLS[call.func], call.args
-        slot = kind.slot
-        try:
-            if slot is None:
-                slot, arguments = TEXCOORD + int(arguments[0]) % TEXTURE_UNITS, arguments[1:]
-            values = kind.values(arguments)
-        except Exception:  # the call itself raises the same when the list is called
+        slot_and_values = value_of(call)
+        if slot_and_values is None:
             return None
-        if values is None:
-            return None
+        slot, values = slot_and_values
         sizes[SLOT_NAMES[slot]] = len(values)
         if slot != NORMAL:
             values = (*values, *REST[len(values) :])
@@ -195,10 +189,6 @@ def used_rows(rows: dict[int, np.ndarray], indices: np.ndarray) -> tuple[dict[in
     for array in (*used.values(), indices):
         array.setflags(write=False)
     return used, indices
-
-
-def _has_names(call: partial[Any]) -> bool:
-    return bool(call.keywords)
 
 
 __all__ = ["is_open", "shares_vertices", "used_rows", "with_primitives"]

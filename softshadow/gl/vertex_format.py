@@ -8,7 +8,7 @@ they do not carry yet, or with fewer components, submits the collected vertices,
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +24,7 @@ REST = (0.0, 0.0, 0.0, 1.0)  # default values of components that a call does not
 TEXCOORDS = tuple(UNIT_OF)
 NO_MATERIALS: frozenset[str] = frozenset()
 NONE: dict[str, np.ndarray] = {}
+FEW_CHANGES = 4  # an attribute that changes at one vertex in so many, or fewer, is repeated in runs
 FEW_VERTICES = 8  # with more collected vertices, a new attribute outside glBegin makes Mesa reset all others
 
 
@@ -291,10 +292,19 @@ def _rows(context: Context, primitive: Primitive, name: str, start: int, count: 
         return context.repeated(value, count)
     if not changes[-1][0]:  # it was set before the first vertex
         return context.repeated(changes[-1][1], count)
+    if len(changes) * FEW_CHANGES < count and not start:
+        return _in_runs(context, changes, count)
     width, numbers = len(value), primitive.components(name, value)
     if len(numbers) != width * count:
         numbers = numbers[width * start : width * (start + count)]
     return context.packed(numbers, count, width)
+
+
+def _in_runs(context: Context, changes: Sequence[tuple[int, tuple[float, ...]]], count: int) -> np.ndarray:
+    """Return the rows of an attribute of `count` vertices that changes at a few places."""
+    values = context.packed([number for _, value in changes for number in value], len(changes), len(changes[0][1]))
+    starts = [min(place // 4, count) for place, _ in changes]
+    return _read_only(np.repeat(values, np.diff(starts, append=count), axis=0))
 
 
 def _optional_rows(

@@ -113,10 +113,34 @@ class Author:
             calls.append(("glEnd", ()))
         return calls
 
+    def mixed_pair(self) -> list[Call]:
+        """A pair with calls among its vertices that are in no array of lists, rarely with more or fewer components."""
+        kinds = self.rng.permutation(["glNormal3f", "glTexCoord2f", "glColor3f"])[: int(self.rng.integers(0, 3))]
+        first = [(str(kind), tuple(self.floats(2 if kind == "glTexCoord2f" else 3))) for kind in kinds]
+        calls: list[Call] = [("glBegin", (int(self.rng.integers(gl.GL_POINTS, gl.GL_POLYGON + 1)),)), *first]
+        others: list[Call] = [
+            ("glMaterialfv", (gl.GL_FRONT_AND_BACK, gl.GL_AMBIENT_AND_DIFFUSE, self.floats(4))),
+            ("glMaterialf", (gl.GL_FRONT, gl.GL_SHININESS, 7.0)),
+            ("glSecondaryColor3f", tuple(self.floats(3))),
+            ("glFogCoordf", (0.5,)),
+            ("glEdgeFlag", (self.chance(0.5),)),
+            ("glCallList", (int(self.rng.integers(0, 5)),)),
+        ]
+        for _ in range(int(self.rng.integers(2, 12))):
+            if self.chance(0.3):
+                calls.append(others[int(self.rng.integers(len(others)))])
+            if self.chance(0.05):
+                calls.append(self.attribute())
+            calls += [(name, tuple(self.floats(len(values)))) for name, values in first if self.chance(0.7)]
+            calls.append(self.vertex() if self.chance(0.05) else ("glVertex3f", tuple(self.floats(3))))
+        return [*calls, ("glEnd", ())]
+
     def some(self) -> list[Call]:
         which = self.rng.random()
         if which < 0.2:
             return self.similar_pairs()
+        if which < 0.35:
+            return self.mixed_pair()
         return self.pair() if which < 0.6 else [self.attribute()] if which < 0.75 else [self.between()]
 
     def program(self) -> list[Call]:
@@ -162,6 +186,7 @@ def in_order(vertices: Vertices, indices: np.ndarray) -> Vertices:
         named(vertices.normal),
         tuple(map(named, vertices.texcoords)),
         {name: named(array) for name, array in vertices.materials.items()},
+        *(None if array is None else named(array) for array in vertices[5:]),  # edge flags and others
     )
 
 

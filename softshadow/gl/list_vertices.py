@@ -1,0 +1,167 @@
+"""Primitives of display lists with calls among their vertices that no array can replace, such as glMaterial.
+
+They are made of their calls. But those in a row that add vertices, and set the attributes of the next ones, are made at
+once, and arrays of what these calls set are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from softshadow.context import Context, Primitive, thread
+from softshadow.context.arrays import POSITION, SLOT_NAMES
+from softshadow.gl.list_calls import BEGIN, CALLS, END, Values, value_of
+from softshadow.gl.list_primitives import carry_out
+from softshadow.gl.vertex_format import REST
+
+NamedValues = Sequence[tuple[str, Values]]
+
+
+class VertexRow:
+    """Calls in a row, within a primitive, that add vertices and set their attributes.
+
+    Those up to the first vertex, and to the first call that sets each attribute, decide about the format of the others.
+    These only add numbers, where the calls have as many components.
+    """
+
+    def __init__(self, calls: Sequence[Callable[[], Any]], values: NamedValues) -> None:
+        names = [name for name, _ in values]
+        n_first = 1 + max(names.index(name) for name in set(names))
+        self._first, self._others = calls[:n_first], calls[n_first:]
+        self._sizes = _sizes(values)
+        self._positions: list[float] = []
+        self._changes: dict[str, list[tuple[int, Values]]] = {}
+        for name, value in values[n_first:]:
+            if name == "position":
+                self._positions += _complete(name, value)
+            else:
+                self._changes.setdefault(name, []).append((len(self._positions), _complete(name, value)))
+
+    def __call__(self) -> None:
+        """Make the calls."""
+        carry_out(self._first)
+        primitive = thread.context.primitive
+        if primitive is None or not self._adds_numbers(primitive):
+            carry_out(self._others)
+            return
+        place = len(primitive.positions)
+        for name, changes in self._changes.items():
+            primitive.changes[name] += [(place + start, value) for start, value in changes]
+            thread.context.set_attribute(name, changes[-1][1])
+        primitive.positions += self._positions
+
+    def _adds_numbers(self, primitive: Primitive) -> bool:
+        """Return whether the calls after the first ones only add numbers."""
+        sizes, steady = self._sizes, primitive.steady
+        if sizes is None or primitive.waiting is not None or primitive.position_size != sizes["position"]:
+            return False
+        if len(primitive.positions) + len(self._positions) >= primitive.limit:
+            return False
+        return all(steady.get(name) == sizes[name] for name in self._changes)
+
+
+class MixedPrimitive:
+    """A glBegin ... glEnd pair with other calls among its vertices.
+
+    Parameters
+    ----------
+    context : Context        in whose precision the arrays are
+    calls : from glBegin to glEnd
+    """
+
+    def __init__(self, context: Context, calls: Sequence[Any]) -> None:
+        within = calls[1:-1]
+        self._calls = [calls[0], *_with_rows(within), self._keep_arrays, calls[-1]]
+        values = [value_of(call) for call in within if _is_of_vertices(call)]
+        named = [(SLOT_NAMES[value[0]], value[1]) for value in values if value is not None]
+        self._count = sum(name == "position" for name, _ in named)
+        self._n_changes, self._arrays = {}, {}
+        if len(named) == len(values) and _sizes(named) is not None:
+            self._n_changes = {name: sum(name == other for other, _ in named) for name, _ in named}
+            self._arrays = _arrays_of(context, named)
+
+    def __call__(self) -> None:
+        """Make the calls."""
+        carry_out(self._calls)
+
+    def _keep_arrays(self) -> None:
+        """Give the open primitive the arrays of what no other call has set."""
+        primitive = thread.context.primitive
+        if primitive is not None and primitive.from_list and self._has_only_own_vertices(primitive):
+            changes, expected = primitive.changes, self._n_changes
+            primitive.arrays = {
+                name: rows
+                for name, rows in self._arrays.items()
+                if name == "position" or len(changes[name]) == 1 + expected[name]
+            }
+
+    def _has_only_own_vertices(self, primitive: Primitive) -> bool:
+        """Return whether the vertices of an open primitive are those of the pair."""
+        is_whole = not primitive.start and primitive.waiting is None
+        return is_whole and bool(self._arrays) and len(primitive.positions) == 4 * self._count
+
+
+def with_mixed_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
+    """Return the calls of a list, with primitives that are no arrays as one call each."""
+    result: list[Callable[[], Any]] = []
+    begin = -1  # place of the last glBegin in `result`
+    for call in calls:
+        result.append(call)
+        function = getattr(call, "func", None)
+        if function is BEGIN:
+            begin = len(result) - 1
+        elif function is END and begin >= 0:
+            result[begin:] = [MixedPrimitive(context, result[begin:])]
+            begin = -1
+    return result
+
+
+def _is_of_vertices(call: Any) -> bool:
+    """Return whether a call adds a vertex, or sets an attribute that lists can have as an array."""
+    return getattr(call, "func", None) in CALLS
+
+
+def _with_rows(calls: Sequence[Any]) -> list[Callable[[], Any]]:
+    """Return calls, with those in a row that add vertices as one."""
+    result: list[Callable[[], Any]] = []
+    for is_known, part in groupby(calls, lambda call: _is_of_vertices(call) and value_of(call) is not None):
+        row = list(part)
+        named = [(SLOT_NAMES[value[0]], value[1]) for call in row if is_known and (value := value_of(call)) is not None]
+        adds_vertices = any(name == "position" for name, _ in named)
+        result += [VertexRow(row, named)] if adds_vertices else row
+    return result
+
+
+def _sizes(values: NamedValues) -> dict[str, int] | None:
+    """Return how many components each attribute is set with; None if one is set with more and with fewer."""
+    sizes = {name: len(value) for name, value in values}
+    return sizes if all(len(value) == sizes[name] for name, value in values) else None
+
+
+def _complete(name: str, value: Values) -> Values:
+    return value if name == "normal" else (*value, *REST[len(value) :])
+
+
+def _arrays_of(context: Context, values: NamedValues) -> dict[str, np.ndarray]:
+    """Return the rows of the vertices: their positions, and the attributes that are set before the first one."""
+    columns: dict[str, list[Values]] = {SLOT_NAMES[POSITION]: []}
+    latest: dict[str, Values] = {}
+    positions = columns["position"]
+    for name, value in values:
+        if name != "position":
+            if name not in latest and not positions:
+                columns[name] = []
+            latest[name] = _complete(name, value)
+            continue
+        positions.append(_complete(name, value))
+        for other, rows in columns.items():
+            if other != name:
+                rows.append(latest[other])
+    return {name: context.frozen(rows) for name, rows in columns.items()} if positions else {}
+
+
+__all__ = ["with_mixed_primitives"]
