@@ -20,29 +20,29 @@ from softshadow.gl.immediate import MODES, consecutive_indices
 from softshadow.gl.list_calls import BEGIN, CALLS, END, Values, value_of
 from softshadow.gl.list_joining import joined
 from softshadow.gl.list_primitives import ListPrimitive, with_similar_joined
-from softshadow.gl.list_vertices import with_mixed_primitives
+from softshadow.gl.list_vertices import MixedPrimitive
 from softshadow.gl.textures import glBindTexture
 from softshadow.gl.vertex_format import REST
 from softshadow.pipeline.mesa.driver_draws import CORNERS
 
 
 def with_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
-    """Return the calls of a list, with primitives as arrays."""
+    """Return the calls of a list, with primitives as arrays, or as one call each where these cannot replace them."""
     compiled: list[Callable[[], Any]] = []
-    begin = -1  # place of the last glBegin in `compiled`
+    begin, is_plain = -1, True  # place of the last glBegin in `compiled`, and whether nothing else follows it
     for call in calls:
         compiled.append(call)
         function = getattr(call, "func", None)
         if function is BEGIN:
-            begin = len(compiled) - 1
+            begin, is_plain = len(compiled) - 1, True
         elif function is END and begin >= 0:
-            primitive = _primitive(context, compiled[begin:])
-            if primitive is not None:
-                compiled[begin:] = [primitive]
+            pair = compiled[begin:]
+            primitive = _primitive(context, pair) if is_plain else None
+            compiled[begin:] = [primitive or MixedPrimitive(context, pair)]
             begin = -1
         elif function not in CALLS:
-            begin = -1
-    return with_mixed_primitives(context, with_similar_joined(_without_repeats(_with_joined(compiled))))
+            is_plain = False
+    return with_similar_joined(_without_repeats(_with_joined(compiled)))
 
 
 def _without_repeats(calls: list[Any]) -> list[Callable[[], Any]]:

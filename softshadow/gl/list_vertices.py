@@ -14,7 +14,7 @@ import numpy as np
 
 from softshadow.context import Context, Primitive, thread
 from softshadow.context.arrays import POSITION, SLOT_NAMES
-from softshadow.gl.list_calls import BEGIN, CALLS, END, Values, value_of
+from softshadow.gl.list_calls import CALLS, Values, value_of
 from softshadow.gl.list_primitives import carry_out
 from softshadow.gl.vertex_format import REST
 
@@ -105,21 +105,6 @@ class MixedPrimitive:
         return is_whole and bool(self._arrays) and len(primitive.positions) == 4 * self._count
 
 
-def with_mixed_primitives(context: Context, calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
-    """Return the calls of a list, with primitives that are no arrays as one call each."""
-    result: list[Callable[[], Any]] = []
-    begin = -1  # place of the last glBegin in `result`
-    for call in calls:
-        result.append(call)
-        function = getattr(call, "func", None)
-        if function is BEGIN:
-            begin = len(result) - 1
-        elif function is END and begin >= 0:
-            result[begin:] = [MixedPrimitive(context, result[begin:])]
-            begin = -1
-    return result
-
-
 def _is_of_vertices(call: Any) -> bool:
     """Return whether a call adds a vertex, or sets an attribute that lists can have as an array."""
     return getattr(call, "func", None) in CALLS
@@ -164,4 +149,4 @@ def _arrays_of(context: Context, values: NamedValues) -> dict[str, np.ndarray]:
     return {name: context.frozen(rows) for name, rows in columns.items()} if positions else {}
 
 
-__all__ = ["with_mixed_primitives"]
+__all__ = ["MixedPrimitive"]

@@ -11,6 +11,7 @@ from softshadow.gl import constant_attributes, list_compiling, list_primitives, 
 from softshadow.gl.list_calls import CALLS, MAKE_OTHERS
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import ListPrimitive
+from softshadow.gl.list_vertices import MixedPrimitive
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.programs.reflectances import followed
 from softshadow.state import BLACK, TEXTURE_UNITS, State
@@ -367,3 +368,19 @@ def test_equal_corners_are_one_vertex(context):
     (primitive,) = compiled(("glBegin", (gl.GL_TRIANGLES,)), *corners[:2], corners[-1], ("glEnd", ()))
     assert len(primitive.rows[0]) == 3
     assert primitive.indices.tolist() == [0, 1, 2]
+
+
+def test_vertices_among_materials_have_the_same_arrays_each_time(context):
+    material = "glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, (1.0, 0.5, 0.0, 1.0))
+    normals = [("glNormal3f", (0.0, 0.0, z)) for z in (1.0, -1.0, 0.5)]
+    vertices = [("glVertex3f", (x, x * x, 0.0)) for x in (-1.0, 0.0, 1.0)]
+    first, second, third = zip(normals, vertices, strict=True)
+    (pair,) = compiled(("glBegin", (gl.GL_TRIANGLES,)), *first, *second, material, *third, ("glEnd", ()))
+    assert type(pair) is MixedPrimitive
+    for _ in range(2):
+        gl.glCallList(1)
+    one, other = (command.vertices for command in context.frame.commands)
+    assert one.position is other.position
+    assert one.normal is other.normal
+    assert one.normal[:, 2].tolist() == [1.0, -1.0, 0.5]
+    assert one.materials["front.diffuse"][:, 0].tolist() == pytest.approx([0.8, 0.8, 1.0])  # the default is 0.8
