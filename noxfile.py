@@ -81,7 +81,7 @@ def docs(session: nox.Session) -> None:
     folder = session.posargs[0] if session.posargs else "docs/_build/html"
     session.run("sphinx-build", "-q", "-W", "--keep-going", "-j", "auto", "-b", "html", "docs", folder)
     site = {"SOFTSHADOW_SITE": os.path.abspath(folder)}
-    session.run("pytest", "-q", "-n2", "--dist", "load", "tests/docs/test_site_in_browser.py", env=site)
+    session.run("pytest", "-q", "-n0", "tests/docs/test_site_in_browser.py", env=site)
     # Sphinx and the executed pages leave nothing in the tree
     left = session.run("git", "status", "--porcelain", "docs", external=True, silent=True) or ""
     if new := [line for line in left.splitlines() if line.startswith("??")]:
