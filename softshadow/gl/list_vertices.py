@@ -6,6 +6,7 @@ once, and arrays of what these calls set are kept.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import groupby
 from typing import Any
@@ -74,15 +75,11 @@ class MixedPrimitive:
     """
 
     def __init__(self, context: Context, calls: Sequence[Any]) -> None:
-        within = calls[1:-1]
+        within = [(call, _named_value(call)) for call in calls[1:-1]]
         self._calls = [calls[0], *_with_rows(within), self._keep_arrays, calls[-1]]
-        values = [value_of(call) for call in within if _is_of_vertices(call)]
-        named = [(SLOT_NAMES[value[0]], value[1]) for value in values if value is not None]
-        self._count = sum(name == "position" for name, _ in named)
-        self._n_changes, self._arrays = {}, {}
-        if len(named) == len(values) and _sizes(named) is not None:
-            self._n_changes = {name: sum(name == other for other, _ in named) for name, _ in named}
-            self._arrays = _arrays_of(context, named)
+        named = [value for _, value in within if value is not None]
+        self._n_calls = Counter(name for name, _ in named)  # that set each attribute
+        self._arrays = {} if _sizes(named) is None else _arrays_of(context, named)
 
     def __call__(self) -> None:
         """Make the calls."""
@@ -92,7 +89,7 @@ class MixedPrimitive:
         """Give the open primitive the arrays of what no other call has set."""
         primitive = thread.context.primitive
         if primitive is not None and primitive.from_list and self._has_only_own_vertices(primitive):
-            changes, expected = primitive.changes, self._n_changes
+            changes, expected = primitive.changes, self._n_calls
             primitive.arrays = {
                 name: rows
                 for name, rows in self._arrays.items()
@@ -102,22 +99,23 @@ class MixedPrimitive:
     def _has_only_own_vertices(self, primitive: Primitive) -> bool:
         """Return whether the vertices of an open primitive are those of the pair."""
         is_whole = not primitive.start and primitive.waiting is None
-        return is_whole and bool(self._arrays) and len(primitive.positions) == 4 * self._count
+        return is_whole and bool(self._arrays) and len(primitive.positions) == 4 * self._n_calls["position"]
 
 
-def _is_of_vertices(call: Any) -> bool:
-    """Return whether a call adds a vertex, or sets an attribute that lists can have as an array."""
-    return getattr(call, "func", None) in CALLS
+def _named_value(call: Any) -> tuple[str, Values] | None:
+    """Return the name and the value of the attribute that a call sets; None if it does more, or only it can judge."""
+    value = value_of(call) if getattr(call, "func", None) in CALLS else None
+    return None if value is None else (SLOT_NAMES[value[0]], value[1])
 
 
-def _with_rows(calls: Sequence[Any]) -> list[Callable[[], Any]]:
-    """Return calls, with those in a row that add vertices as one."""
+def _with_rows(calls: Sequence[tuple[Any, tuple[str, Values] | None]]) -> list[Callable[[], Any]]:
+    """Return calls, of which the values are given, with those in a row that add vertices as one."""
     result: list[Callable[[], Any]] = []
-    for is_known, part in groupby(calls, lambda call: _is_of_vertices(call) and value_of(call) is not None):
+    for is_known, part in groupby(calls, lambda each: each[1] is not None):
         row = list(part)
-        named = [(SLOT_NAMES[value[0]], value[1]) for call in row if is_known and (value := value_of(call)) is not None]
-        adds_vertices = any(name == "position" for name, _ in named)
-        result += [VertexRow(row, named)] if adds_vertices else row
+        own, named = [call for call, _ in row], [value for _, value in row if value is not None]
+        adds_vertices = is_known and any(name == "position" for name, _ in named)
+        result += [VertexRow(own, named)] if adds_vertices else own
     return result
 
 

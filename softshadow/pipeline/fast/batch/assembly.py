@@ -5,6 +5,7 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 """
 
 from softshadow.jit import kernel
+from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.vertices import (
     ACROSS,
     END,
@@ -48,6 +49,11 @@ def primitive_count(mode: int, n: int) -> int:
     if mode not in POLYGONS:
         return n - 1 if mode == GL_LINE_STRIP else n
     return max(n // 2 - 1, 0) * 2 if mode == GL_QUAD_STRIP else max(n - 2, 0)
+
+
+def primitives_of(draw: Draw) -> int:
+    """Return the number of triangles, lines or points that a draw makes, before clipping."""
+    return primitive_count(draw.mode, len(draw.vertices.position if draw.indices is None else draw.indices))
 
 
 @kernel

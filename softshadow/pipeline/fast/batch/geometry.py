@@ -15,11 +15,11 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
-from softshadow.pipeline.commands import NO_UNIFORMS, Draw
-from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitive_count
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitives_of
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
+from softshadow.pipeline.fast.batch.lines_and_points import sizes_of_points, stipple_places, widths_of_lines
 from softshadow.pipeline.fast.batch.run import (
-    PLAIN_POINTS,
     WIDTH_OF_LINES,
     WIDTH_OF_POLYGONS,
     Run,
@@ -40,11 +40,8 @@ from softshadow.pipeline.geometry.geometry import (
     has_float_units,
     outlined_geometry,
     points_and_lines_geometry,
-    vertex_inputs,
 )
-from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.lines import clip_lines
-from softshadow.pipeline.geometry.lines_and_points import size_of_points
 from softshadow.pipeline.geometry.points import clip_points
 from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, empty_setup, stored_culling
@@ -53,7 +50,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
-from softshadow.programs.fixed_function import is_replaced, point_sizes
+from softshadow.programs.fixed_function import is_replaced
 
 VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
@@ -143,7 +140,7 @@ def geometry_of(
         known = None
     if known and (known.cut is not None or not run.writes_color):
         return _batch(_repeated_geometry(run, setting, draws, views, target, known))
-    table, most = table_of(run, draws, views), sum(_primitive_counts(draws))
+    table, most = table_of(run, draws, views), sum(map(primitives_of, draws))
     n = len(table.positions)
     command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
     inputs = _inputs(table)
@@ -177,7 +174,7 @@ def geometry_of(
             return _batch(*_with_pieces(geometry, clipped, setting, table))
     else:
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
-        sizes = _point_sizes(run, draws) if width == 1 else None
+        sizes = sizes_of_points(run, draws) if width == 1 else None
         with_sizes = columns if sizes is None else np.hstack([columns, sizes[:, np.newaxis]])
         provoking, clipped = primitives[:, -1], clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
     window, of_pieces = outputs.window, provoking[clipped.source]
@@ -189,8 +186,8 @@ def geometry_of(
     geometry = _with_values(geometry, clipped.values[:, : columns.shape[1]], outputs)
     if not is_polygons:
         sizes = None if sizes is None else clipped.values[:, -1]
-        places = _stipple_places(draws, clipped.source) if run.stippled else None
-        widths = _line_widths(run, draws, clipped.source) if width == WIDTH_OF_LINES else None
+        places = stipple_places(draws, clipped.source) if run.stippled else None
+        widths = widths_of_lines(run, draws, clipped.source) if width == WIDTH_OF_LINES else None
         return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places, widths))
     if not is_filled:
         outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
@@ -221,7 +218,7 @@ def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
                 edges_of_joined_polygons(draw.indices.reshape(-1, 3)) for draw in same if draw.indices is not None
             ]
             continue
-        counts = [primitive_count(mode, _named_vertices(draw)) for draw in same]
+        counts = [primitives_of(draw) for draw in same]
         mode = gl.GL_QUAD_STRIP if pairs_mode == gl.GL_QUAD_STRIP else mode
         # the triangles of other modes have the same edges in a draw of their own
         edges += [edge_flags(mode, count) for count in (counts if mode == gl.GL_POLYGON else [sum(counts)])]
@@ -235,7 +232,7 @@ def _in_stages(draws: Sequence[Draw], codes: np.ndarray, user_planes: np.ndarray
     in_stages, start, first = np.zeros(len(triangles), np.uint8), 0, 0
     for draw in draws:
         end = start + len(draw.vertices.position)
-        last = first + primitive_count(draw.mode, _named_vertices(draw))
+        last = first + primitives_of(draw)
         if codes[start:end].any():
             of_draw = triangles_in_stages(draw, codes[start:end], user_planes, triangles[first:last] - start)
             in_stages[first : first + len(of_draw)] = of_draw
@@ -267,40 +264,6 @@ def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: 
         setting.culled, setting.positive_is_front, setting.offset, *setup,
     )  # fmt: skip
     return geometry._replace(window=window, triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8
-
-
-def _point_sizes(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
-    """Return the sizes of points (V,) where they depend on the distance or differ between draws, else None."""
-    if run.state.points.attenuation != PLAIN_POINTS.attenuation:
-        sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
-        return np.concatenate([each for each in sizes if each is not None])
-    polygon = run.state.polygon
-    if all(draw.state.polygon is polygon for draw in draws):
-        return None
-    counts = [len(draw.vertices.position) for draw in draws]
-    return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
-
-
-def _line_widths(run: Run, draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
-    """Return the widths (L,) of clipped lines where one is not that of the run, else None."""
-    widths = [draw.state.polygon.line_width for draw in draws]
-    if set(widths) == {run.state.polygon.line_width}:
-        return None
-    return np.repeat(np.array(widths, np.float64), _primitive_counts(draws))[source]
-
-
-def _stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
-    """Return the places of clipped lines in the line stipple, as for draws on their own.
-
-    A strip or loop whose first line is clipped goes on where the draw before it ended.
-    """
-    counts = _primitive_counts(draws)
-    of_line = np.repeat(np.arange(len(draws)), counts)[source]
-    firsts = (np.cumsum(counts) - counts)[of_line]
-    separate = np.array([draw.mode == gl.GL_LINES for draw in draws])[of_line]
-    before = np.array([draw.stipple_place for draw in draws], np.int32)[of_line]
-    goes_on = np.diff(of_line, prepend=-1) == 0
-    return np.where(separate | (source == firsts), 0, np.where(goes_on, CONTINUES, before)).astype(np.int32)
 
 
 def _may_be_repeated(draws: Sequence[Draw]) -> bool:
@@ -388,16 +351,6 @@ def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
     """Return the lines (L, 2) or points (P, 1) of all draws over the vertices of the table."""
     primitives = np.empty((most, width), np.int32)
     return primitives[: assemble_lines_and_points(table.numbers, table.indices, primitives)]
-
-
-def _primitive_counts(draws: Sequence[Draw]) -> list[int]:
-    """Return how many primitives each draw has before clipping, at most."""
-    return [primitive_count(draw.mode, _named_vertices(draw)) for draw in draws]
-
-
-def _named_vertices(draw: Draw) -> int:
-    """Return how many vertices a draw names, by indices or in order."""
-    return len(draw.vertices.position if draw.indices is None else draw.indices)
 
 
 def _flat_columns(run: Run) -> np.ndarray:

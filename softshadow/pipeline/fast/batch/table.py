@@ -35,7 +35,7 @@ from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
-from softshadow.state import Lighting, MaterialState, Viewport
+from softshadow.state import BLACK, Lighting, MaterialState, Viewport
 from softshadow.tokens import GL_QUAD_STRIP
 
 BATCH_KERNELS = KernelGroup("batch")
@@ -139,8 +139,8 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
-        _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, BLACK),
-        _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, ZERO),
+        _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, NO_SECONDARY),
+        _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, NO_FOG_COORDINATE),
         _texcoords(run, vertices, int(numbers[-1, END])),
         _joined([draw.indices for draw in draws if draw.indices is not None], reads_indices, NO_INDICES),
         views.scales,
@@ -161,7 +161,7 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
 
 
 NO_ROWS, NO_INDICES, NO_COORDINATES = np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL)
-BLACK, ZERO = np.zeros(4, REAL), np.zeros((), REAL)
+NO_SECONDARY, NO_FOG_COORDINATE = np.array(BLACK, REAL), np.zeros((), REAL)
 
 
 def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:

@@ -1,0 +1,51 @@
+"""What lines and points of a run differ in; equals `geometry.geometry.process_geometry`, see fast/test_batch.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from softshadow import tokens as gl
+from softshadow.pipeline.commands import NO_UNIFORMS, Draw
+from softshadow.pipeline.fast.batch.assembly import primitives_of
+from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, Run
+from softshadow.pipeline.fast.batch.table import REAL
+from softshadow.pipeline.geometry.geometry import vertex_inputs
+from softshadow.pipeline.geometry.line_stipple import CONTINUES
+from softshadow.pipeline.geometry.lines_and_points import size_of_points
+from softshadow.programs.fixed_function import point_sizes
+
+
+def sizes_of_points(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
+    """Return the sizes of points (V,) where they depend on the distance or differ between draws, else None."""
+    if run.state.points.attenuation != PLAIN_POINTS.attenuation:
+        sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
+        return np.concatenate([each for each in sizes if each is not None])
+    polygon = run.state.polygon
+    if all(draw.state.polygon is polygon for draw in draws):
+        return None
+    counts = [len(draw.vertices.position) for draw in draws]
+    return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
+
+
+def widths_of_lines(run: Run, draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
+    """Return the widths (L,) of clipped lines where one is not that of the run, else None."""
+    widths = [draw.state.polygon.line_width for draw in draws]
+    if set(widths) == {run.state.polygon.line_width}:
+        return None
+    return np.repeat(np.array(widths, np.float64), [primitives_of(draw) for draw in draws])[source]
+
+
+def stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
+    """Return the places of clipped lines in the line stipple, as for draws on their own.
+
+    A strip or loop whose first line is clipped goes on where the draw before it ended.
+    """
+    counts = [primitives_of(draw) for draw in draws]
+    of_line = np.repeat(np.arange(len(draws)), counts)[source]
+    firsts = (np.cumsum(counts) - counts)[of_line]
+    separate = np.array([draw.mode == gl.GL_LINES for draw in draws])[of_line]
+    before = np.array([draw.stipple_place for draw in draws], np.int32)[of_line]
+    goes_on = np.diff(of_line, prepend=-1) == 0
+    return np.where(separate | (source == firsts), 0, np.where(goes_on, CONTINUES, before)).astype(np.int32)
