@@ -218,6 +218,16 @@ class Program:
         if self.environment.random() < 0.2:
             gl.glFogCoordf(self.environment.uniform(-1, 1))
 
+    def set_material(self) -> None:
+        """Set a parameter of a material, as between two vertices."""
+        choose = self.environment.choice
+        side = int(choose((gl.GL_FRONT, gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK)))
+        if self.environment.random() < 0.3:
+            gl.glMaterialf(side, gl.GL_SHININESS, int(choose((0, 0, 7, 100))))
+            return
+        colors = gl.GL_AMBIENT, gl.GL_DIFFUSE, gl.GL_SPECULAR, gl.GL_EMISSION, gl.GL_AMBIENT_AND_DIFFUSE
+        gl.glMaterialfv(side, int(choose(colors)), self.environment.random(4).tolist())
+
     def draw_something(self) -> None:
         gl.glColor4f(*self.numbers(4, 0))
         gl.glNormal3f(*self.numbers(3))
@@ -230,10 +240,13 @@ class Program:
             self.mode = self.one_of(*MODES)
         mode, n = self.mode, int(self.rng.integers(0, 14))
         if self.chance(0.3):
+            materials = self.environment.random() < 0.5
             gl.glBegin(mode)
             for _ in range(n):
                 gl.glTexCoord2f(*self.numbers(2))
                 self.set_secondary()
+                if materials and self.environment.random() < 0.5:
+                    self.set_material()
                 gl.glVertex3f(*self.numbers(3))
             gl.glEnd()
             return
@@ -404,7 +417,15 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
             point(gl.GL_FLOAT, 0, rng.uniform(-1, 1, (150, width)).astype(np.float32))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(queue, "geometry_of", compared)
-        gl.glDrawArrays(gl.GL_TRIANGLES, 0, 150)
+        if program.environment.random() < 0.5:
+            gl.glDrawArrays(gl.GL_TRIANGLES, 0, 150)
+        else:
+            gl.glBegin(gl.GL_TRIANGLES)
+            for vertex in range(150):
+                if program.environment.random() < 0.1:
+                    program.set_material()
+                gl.glArrayElement(vertex)
+            gl.glEnd()
         gl.glFinish()
     for ours, expected in geometries:
         np.testing.assert_array_equal(ours.values, expected.values)

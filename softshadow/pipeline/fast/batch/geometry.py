@@ -336,7 +336,7 @@ def _inputs(table: Table) -> tuple[Any, ...]:
     return (
         table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
         table.planes, table.user_planes, table.unit_rows, table.positions, table.colors, table.normals,
-        table.secondaries, table.fog_coordinates, table.texcoords, table.scales, table.shifts,
+        table.reflectances, table.secondaries, table.fog_coordinates, table.texcoords, table.scales, table.shifts,
     )  # fmt: skip
 
 

@@ -38,6 +38,7 @@ from softshadow.pipeline.fast.batch.lighting import (
     PLACED,
     POSITION,
     QUADRATIC,
+    REFLECTANCES,
     RESCALES,
     SHININESS,
     SPECULAR,
@@ -59,17 +60,19 @@ Y, Z, W = (np.uint64(row * BLOCK) for row in (1, 2, 3))  # from the first row of
 SQUARED, ATTENUATION, BASE, EXPONENT, RAISED, TOWARDS = (np.uint64(row * BLOCK) for row in range(12, 18))
 # the vertex colour; the material, with emission and the light model's part; the results
 COLOR, OWN_AMBIENT, OWN_DIFFUSE, OWN_SPECULAR, LIT, HIGHLIGHT = (np.uint64(row * BLOCK) for row in range(18, 42, 4))
-ROWS = 41
+OWN_SHININESS = np.uint64(41 * BLOCK)
+ROWS = 42
 
 
 @allocating_kernel
 def light_vertices(
     first, last, two_side, separate, object_space, keeps_length, modelview, to_object, normal, color, lights,
-    materials, flags, placed, positions, colors, normals, values, back,
+    materials, flags, placed, positions, colors, normals, reflectances, values, back,
 ):  # fmt: skip
     """Write the lit colours of the vertices [first, last), which belong to one draw, and their separate highlights.
 
-    `normal` and `color` are those of all vertices where `normals` and `colors` have no rows.
+    `normal`, `color` and `materials` are those of all vertices where `normals`, `colors` and `reflectances` have no
+    rows.
     """
     room = np.empty(ROWS * BLOCK, np.float32)
     for begin in range(first, last, BLOCK):
@@ -90,9 +93,10 @@ def light_vertices(
                     room[NORMAL + n] = -room[NORMAL + n]
                     room[NORMAL + Y + n] = -room[NORMAL + Y + n]
                     room[NORMAL + Z + n] = -room[NORMAL + Z + n]
-            begin_colors(materials[side], flags[FOLLOWS_BACK if side else FOLLOWS_FRONT], room)
+            follows = flags[FOLLOWS_BACK if side else FOLLOWS_FRONT]
+            begin_colors(start, count, materials[side], follows, reflectances, side * REFLECTANCES, room)
             for light in range(flags[N_LIGHTS]):
-                add_light(lights[light], placed[light], flags, materials[side, SHININESS], separate, room)
+                add_light(lights[light], placed[light], flags, separate, room)
             write_colors(start, count, separate, room, back if side else values)
 
 
@@ -153,12 +157,17 @@ def normalize_rows(row, room):
 
 
 @inlined
-def begin_colors(material, follows, room):
-    """Write the material, whose colours follow the vertex colour or do not; LIT begins with what needs no light."""
-    write_reflectance(follows & FOLLOWS_AMBIENT, material, MATERIAL_AMBIENT, OWN_AMBIENT, room)
-    write_reflectance(follows & FOLLOWS_DIFFUSE, material, MATERIAL_DIFFUSE, OWN_DIFFUSE, room)
-    write_reflectance(follows & FOLLOWS_SPECULAR, material, MATERIAL_SPECULAR, OWN_SPECULAR, room)
-    write_reflectance(follows & FOLLOWS_EMISSION, material, EMISSION, LIT, room)
+def begin_colors(start, count, material, follows, reflectances, first_column, room):
+    """Write the material, whose colours follow the vertex colour or do not; LIT begins with what needs no light.
+
+    The columns of this side begin in `reflectances` with `first_column`.
+    """
+    own = start, count, material, reflectances, first_column
+    write_reflectance(follows & FOLLOWS_AMBIENT, 4, MATERIAL_AMBIENT, own, OWN_AMBIENT, room)
+    write_reflectance(follows & FOLLOWS_DIFFUSE, 4, MATERIAL_DIFFUSE, own, OWN_DIFFUSE, room)
+    write_reflectance(follows & FOLLOWS_SPECULAR, 4, MATERIAL_SPECULAR, own, OWN_SPECULAR, room)
+    write_reflectance(follows & FOLLOWS_EMISSION, 4, EMISSION, own, LIT, room)
+    write_reflectance(0, 1, SHININESS, own, OWN_SHININESS, room)
     for c in range(3):
         row, model = np.uint64(c) * LANES, material[MODEL_AMBIENT + c]
         for n in range(LANES):
@@ -167,20 +176,28 @@ def begin_colors(material, follows, room):
 
 
 @kernel
-def write_reflectance(follows, material, column, row, room):
-    """Write a material colour to the rows from `row` on: that of the vertex where the material follows it."""
-    for c in range(4):
-        own, at, constant = row + np.uint64(c) * LANES, COLOR + np.uint64(c) * LANES, material[column + c]
+def write_reflectance(follows, n_columns, column, own, row, room):
+    """Write columns of the material of each vertex to the rows from `row` on, or its colour where they follow it.
+
+    `own`: the first vertex and the number of vertices, the material of all that have none, `reflectances` and the first
+    of their columns.
+    """
+    start, count, material, reflectances, first_column = own
+    for c in range(n_columns):
+        at, constant, component = np.uint64(first_column + column + c), material[column + c], np.uint64(c) * LANES
         if follows:
             for n in range(LANES):
-                room[own + n] = room[at + n]
+                room[row + component + n] = room[COLOR + component + n]
+        elif reflectances.shape[0]:
+            for n in range(count):
+                room[row + component + n] = reflectances[start + n, at]
         else:
             for n in range(LANES):
-                room[own + n] = constant
+                room[row + component + n] = constant
 
 
 @kernel
-def add_light(light, placed, flags, shininess, separate, room):
+def add_light(light, placed, flags, separate, room):
     """Add what one light contributes to LIT and HIGHLIGHT."""
     is_positional, highlights = light[POSITION + 3] != ZERO, flags[HIGHLIGHTS] != 0
     is_local = flags[LOCAL_VIEWER] != 0 and highlights
@@ -198,7 +215,7 @@ def add_light(light, placed, flags, shininess, separate, room):
                 room[NORMAL + n], room[NORMAL + Y + n], room[NORMAL + Z + n], room[HALF + n], room[HALF + Y + n],
                 room[HALF + Z + n],
             )  # fmt: skip
-            room[EXPONENT + n] = shininess
+            room[EXPONENT + n] = room[OWN_SHININESS + n]
     if highlights or attenuates:
         for n in range(LANES):
             exponent = room[EXPONENT + n]

@@ -29,6 +29,11 @@ CONSTANT, LINEAR, QUADRATIC, HAS_SPOT, HAS_POLYNOMIAL, LIGHT_COLUMNS = 18, 19, 2
 NO_SPOT = (0.0,) * 5  # direction, exponent and cosine of a light that shines in all directions
 # columns of a material; the last three are the light model's ambient colour
 MATERIAL_AMBIENT, MATERIAL_DIFFUSE, MATERIAL_SPECULAR, EMISSION, SHININESS, MODEL_AMBIENT = 0, 4, 8, 12, 16, 17
+REFLECTANCES = MODEL_AMBIENT  # columns of a side that vertices may have instead
+REFLECTANCE_COLUMNS: dict[str, int | slice] = {
+    "ambient": slice(0, 4), "diffuse": slice(4, 8), "specular": slice(8, 12), "emission": slice(12, 16),
+    "shininess": SHININESS,
+}  # fmt: skip
 # flags of a Lighting
 N_LIGHTS, LOCAL_VIEWER, NORMALIZES, RESCALES, HIGHLIGHTS, NEEDS_EYE, OBJECT_SPACE, FOLLOWS_FRONT, FOLLOWS_BACK = range(
     9
@@ -49,15 +54,16 @@ class LightingRows(NamedTuple):
     flags: np.ndarray
 
 
-def lighting_rows(lighting: Lighting) -> LightingRows:
-    """Return the numbers that kernels read of a `Lighting`."""
+def lighting_rows(lighting: Lighting, names: frozenset[str]) -> LightingRows:
+    """Return the numbers that kernels read of a `Lighting`; `names` are those of materials that vertices have."""
     enabled = enabled_lights(lighting)
     lights = np.array([_light(light) for light in enabled], np.float32).reshape(-1, LIGHT_COLUMNS)
     materials = np.array([_material(side, lighting) for side in (lighting.front, lighting.back)], np.float32)
     follows = [sum(FOLLOWS[name] for name in followed(lighting, side)) for side in ("front", "back")]
     flags = (
-        len(enabled), lighting.local_viewer, lighting.normalize, lighting.rescale_normal, has_highlights(lighting),
-        needs_eye_position(lighting), in_object_space(lighting, length_preserving=True), *follows,
+        len(enabled), lighting.local_viewer, lighting.normalize, lighting.rescale_normal,
+        has_highlights(lighting, names), needs_eye_position(lighting, names),
+        in_object_space(lighting, length_preserving=True), *follows,
     )  # fmt: skip
     return LightingRows(lights, materials, np.array(flags, np.int64))
 

@@ -48,6 +48,7 @@ from softshadow.programs.fixed_function import (
     units_in_use,
 )
 from softshadow.programs.inverse import UNKNOWN
+from softshadow.programs.stale_registers import PRODUCTS
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.state import ClipPlanes, Lighting, Points, Polygon, State
 
@@ -66,6 +67,8 @@ OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in (*O
 PLAIN_POINTS, PLAIN_POLYGON, NO_CLIP_PLANES = Points(), Polygon(), ClipPlanes()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
+NO_NAMES: frozenset[str] = frozenset()
+BACK_PRODUCTS = frozenset([f"back.{name}" for name in PRODUCTS])
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
 WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
@@ -76,7 +79,7 @@ class Arrays(NamedTuple):
     """Which attributes of a draw are arrays, not constants: colour, normal, coordinates of each unit in use.
 
     `secondary` is true only where the colours depend on secondary ones. `identities` says of each unit whether its
-    texture matrix is the identity.
+    texture matrix is the identity. `materials` are the names of those that lit vertices have.
     """
 
     color: bool
@@ -84,6 +87,7 @@ class Arrays(NamedTuple):
     secondary: bool
     texcoords: tuple[bool, ...]
     identities: tuple[bool, ...]
+    materials: frozenset[str]
 
 
 class Run:
@@ -135,6 +139,7 @@ class Run:
             self.reads_secondaries and has_secondaries(vertices),
             tuple([vertices.texcoords[number].strides[0] != 0 for number in numbers]),
             self._identities_of(command),
+            frozenset(vertices.materials) if self.lit and vertices.materials else NO_NAMES,
         )
 
     def _identities_of(self, command: Draw) -> tuple[bool, ...]:
@@ -251,7 +256,7 @@ class Run:
                 one.texcoords is other.texcoords
                 or [one.texcoords[n].strides for n in numbers] == [other.texcoords[n].strides for n in numbers]
             )
-            and not one.materials
+            and one.materials.keys() == other.materials.keys()
         )
 
 
@@ -351,12 +356,13 @@ def can_run(command: Draw) -> bool:
     if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
         return False
     vertices, lights = command.vertices, command.state.lighting
-    if vertices.materials or vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
+    if vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
         return False
     if leaves_out_triangles(command) or is_outlined_alone(command):
         return False
-    # Mesa's back materials that follow the colour of each vertex have stale products (programs.stale_registers)
-    return not (lights.enabled and lights.two_side and lights.color_material and vertices.color.strides[0])
+    # Mesa's back materials that differ between vertices have stale products (programs.stale_registers)
+    follows = lights.color_material and vertices.color.strides[0]
+    return not (lights.enabled and lights.two_side and (follows or not BACK_PRODUCTS.isdisjoint(vertices.materials)))
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:

@@ -16,9 +16,9 @@ from softshadow.pipeline.geometry.vertex import window_position
 @kernel
 def set_up_run(
     layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows, positions,
-    colors, normals, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes, window, values, back,
-    indices, triangles, triangles_read, provoking, snapped, culled, positive_is_front, offset, corners, vertices, depth,
-    front, ids,
+    colors, normals, reflectances, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes, window,
+    values, back, indices, triangles, triangles_read, provoking, snapped, culled, positive_is_front, offset, corners,
+    vertices, depth, front, ids,
 ):  # fmt: skip
     """Process the vertices of all draws and set their triangles up, unless any of them must be clipped.
 
@@ -29,8 +29,8 @@ def set_up_run(
     prepare_draws(layout, numbers, rows, lights, flags, placed)
     process_vertices(
         0, n, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-        positions, colors, normals, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes, window,
-        values, back,
+        positions, colors, normals, reflectances, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes,
+        window, values, back,
     )  # fmt: skip
     n_triangles = assemble_draws(numbers, indices, codes, triangles, provoking)
     any_code = 0

@@ -39,7 +39,8 @@ from softshadow.state import BLACK, Lighting, MaterialState, Viewport
 from softshadow.tokens import GL_QUAD_STRIP
 
 BATCH_KERNELS = KernelGroup("batch")
-LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in ("front", "back"))
+SIDES = ("front", "back")
+LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in SIDES)
 MATERIAL = tuple(field.name for field in fields(MaterialState))
 MOST_KNOWN = 1024  # states of which the numbers are kept
 REAL = np.dtype(np.float32)
@@ -51,8 +52,9 @@ class Table(NamedTuple):
     numbers (D, 10) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
     user_planes (P, 4): the clip planes of all draws in clip space; positions (V, 4), colors (V, 4), normals (V, 3),
-    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; secondaries (V, 4),
-    fog_coordinates (V,): no rows where no column depends on them; indices (I,) int32; scales (W, 3), shifts (W, 3): of
+    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; reflectances (V, 34):
+    materials of vertices, front and back; secondaries (V, 4), fog_coordinates (V,): no rows where no column depends on
+    them; indices (I,) int32; scales (W, 3), shifts (W, 3): of
     `Views`.
     """
 
@@ -69,6 +71,7 @@ class Table(NamedTuple):
     positions: np.ndarray
     colors: np.ndarray
     normals: np.ndarray
+    reflectances: np.ndarray
     secondaries: np.ndarray
     fog_coordinates: np.ndarray
     texcoords: np.ndarray
@@ -132,13 +135,14 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         numbers,
         rows,
         _unit_rows(run, draws),
-        *_lighting_arrays(lightings),
+        *_lighting_arrays(lightings, arrays.materials),
         run.generated,
         run.planes,
         run.user_planes,
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
+        _reflectances(draws, arrays.materials),
         _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, NO_SECONDARY),
         _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, NO_FOG_COORDINATE),
         _texcoords(run, vertices, int(numbers[-1, END])),
@@ -161,6 +165,7 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
 
 
 NO_ROWS, NO_INDICES, NO_COORDINATES = np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL)
+NO_REFLECTANCES = np.empty((0, 2 * lighting.REFLECTANCES), REAL)
 NO_SECONDARY, NO_FOG_COORDINATE = np.array(BLACK, REAL), np.zeros((), REAL)
 
 
@@ -185,6 +190,23 @@ def _optional(
         for each, values in zip(vertices, given, strict=True)
     ]
     return read_only(np.concatenate(rows, dtype=REAL))
+
+
+def _reflectances(draws: Sequence[Draw], names: frozenset[str]) -> np.ndarray:
+    """Return the front and back materials (V, 34) of the vertices of all draws; no rows if vertices have none."""
+    if not names:
+        return read_only(NO_REFLECTANCES)
+    columns = scratch((sum([len(draw.vertices.position) for draw in draws]), 2 * lighting.REFLECTANCES), REAL)
+    start = 0
+    for draw in draws:
+        vertices, constants = draw.vertices, _rows(draw.state.lighting, names).materials
+        own = columns[start : start + len(vertices.position)].reshape(-1, 2, lighting.REFLECTANCES)
+        own[:] = constants[:, : lighting.REFLECTANCES]
+        for name, values in vertices.materials.items():
+            side, _, parameter = name.partition(".")
+            own[:, SIDES.index(side), lighting.REFLECTANCE_COLUMNS[parameter]] = values
+        start += len(own)
+    return read_only(columns)
 
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
@@ -216,7 +238,7 @@ def _same_rows(a: Lighting, b: Lighting) -> bool:
     one, other = a.__dict__, b.__dict__
     if any(one[name] is not other[name] and one[name] != other[name] for name in LIGHT_MODEL):
         return False
-    for side in ("front", "back"):
+    for side in SIDES:
         followed = reflectances.followed(a, side)
         x, y = one[side].__dict__, other[side].__dict__
         if any(x[name] != y[name] for name in MATERIAL if name not in followed):
@@ -224,21 +246,23 @@ def _same_rows(a: Lighting, b: Lighting) -> bool:
     return True
 
 
-_rows_of: dict[int, tuple[Lighting, lighting.LightingRows]] = {}  # of the latest states of lighting, by id
+# of the latest states of lighting, by id and by the names of the materials that vertices have
+_rows_of: dict[tuple[int, frozenset[str]], tuple[Lighting, lighting.LightingRows]] = {}
 
 
-def _rows(lights: Lighting) -> lighting.LightingRows:
-    known = _rows_of.get(id(lights))
+def _rows(lights: Lighting, names: frozenset[str]) -> lighting.LightingRows:
+    place = id(lights), names
+    known = _rows_of.get(place)
     if known is None or known[0] is not lights:
         if len(_rows_of) >= MOST_KNOWN:
             _rows_of.clear()
-        known = _rows_of[id(lights)] = (lights, lighting.lighting_rows(lights))
+        known = _rows_of[place] = (lights, lighting.lighting_rows(lights, names))
     return known[1]
 
 
-def _lighting_arrays(lightings: list[Lighting]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return lights, materials and flags of all states of lighting."""
-    rows = [_rows(each) for each in lightings]
+def _lighting_arrays(lightings: list[Lighting], names: frozenset[str]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return lights, materials and flags of all states of lighting; `names` as for `lighting_rows`."""
+    rows = [_rows(each, names) for each in lightings]
     if len(rows) == 1:
         return rows[0].lights[np.newaxis], rows[0].materials[np.newaxis], rows[0].flags[np.newaxis]
     most = max(len(each.lights) for each in rows)

@@ -112,8 +112,8 @@ def transformed(m, i, x, y, z, w):
 @kernel
 def process_vertices(
     begin, end, layout, numbers, rows, lights, materials, flags, placed, generated, planes, user_planes, unit_rows,
-    positions, colors, normals, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes, window, values,
-    back,
+    positions, colors, normals, reflectances, secondaries, fog_coordinates, texcoords, scales, shifts, clip, codes,
+    window, values, back,
 ):  # fmt: skip
     """Write clip position, clip code, window position and varyings of the vertices [begin, end) of all draws."""
     for d in range(numbers.shape[0]):
@@ -135,7 +135,7 @@ def process_vertices(
                 first, last, layout.two_side, layout.separate, in_object_space(layout, flags[lighting], kind),
                 not kind & ~LENGTH_PRESERVING, modelview, matrix_at(row, INVERSE), row[NORMAL:PRODUCT],
                 row[COLOR:NORMAL], lights[lighting], materials[lighting], flags[lighting], placed[d], positions,
-                colors, normals, values, back,
+                colors, normals, reflectances, values, back,
             )  # fmt: skip
         else:
             for vertex in range(first, last):
