@@ -9,7 +9,7 @@ References: GL 2.1 sec. 2.14.1; ffvertex_prog.c, light.c of Mesa 22.3.
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +18,8 @@ from softshadow import tokens as gl
 from softshadow.programs.inverse import inverse, is_length_preserving
 from softshadow.programs.llvmpipe_math import powers
 from softshadow.programs.program import VertexInputs
-from softshadow.programs.reflectances import Reflectances, vector
-from softshadow.programs.stale_registers import PRODUCTS, LightRegisters, stale_values
+from softshadow.programs.reflectances import Reflectances, followed, varying, vector
+from softshadow.programs.stale_registers import GREEN_BLUE, PRODUCTS, UNWRITTEN, LightRegisters, stale_values
 from softshadow.programs.texture_coordinates import dot, normalize_rows, reciprocal_root, transform
 from softshadow.state import Lighting, LightState
 
@@ -131,7 +131,8 @@ def light_vertices(
         if not lighting.two_side:
             return front, None
         is_single = vertices.color.dtype == np.float32
-        stale = stale_products(lighting, front_side, back_side, lights, highlights) if is_single else []
+        is_stale = is_single and has_stale_products(lighting, vertices.materials, vertices.color)
+        stale = stale_products(lighting, front_side, back_side, lights, highlights) if is_stale else []
         return front, shade_side(lighting, back_side, vertices, -normal, lights, highlights, stale)
 
 
@@ -222,6 +223,17 @@ def attenuation(
     return factor, parts
 
 
+def has_stale_products(lighting: Lighting, materials: Iterable[str], color: np.ndarray) -> bool:
+    """Return whether back products that may differ between vertices are stale (`stale_registers`).
+
+    They are not if the materials of both sides follow the colour alike: then the register that a back product reads
+    was written last by the same product of the front, which has the same value. Arguments as of `varying`.
+    """
+    front, back = (varying(lighting, side, materials, color).intersection(PRODUCTS) for side in ("front", "back"))
+    follows = front == back and back.issubset(followed(lighting, "front")) and back.issubset(followed(lighting, "back"))
+    return bool(back) and not follows
+
+
 def stale_products(
     lighting: Lighting, front: Reflectances, back: Reflectances, lights: list[LightAtVertices], highlights: bool
 ) -> list[dict[str, np.ndarray]]:
@@ -240,8 +252,6 @@ def stale_products(
             front={name: front.product(name, source.light, {}) for name in PRODUCTS if name in front.varying},
         )
 
-    if not back.varying & set(PRODUCTS):
-        return []
     return stale_values([registers_of(source) for source in lights], back.varying, lighting.local_viewer)
 
 
@@ -278,8 +288,11 @@ def shade_side(
             rgb = shine + rgb
     primary = np.empty((4, n), np.float32)
     primary[:3], primary[3] = rgb, reflectance("diffuse")[:, 3]
-    clamp = clamp_colors if stale else clamp_lit_colors  # Mesa's compiler treats what was never written as it likes
-    return Colors(clamp(primary).T, clamp(highlight).T if separate else None)
+    colors = [clamp_lit_colors(each) for each in ((primary, highlight) if separate else (primary,))]
+    if any(values is UNWRITTEN for products in stale for values in products.values()):
+        for clamped, each in zip(colors, (primary, highlight), strict=False):
+            clamped[GREEN_BLUE] = clamp_colors(each[GREEN_BLUE])  # Mesa's compiler treats these as it likes
+    return Colors(colors[0].T, colors[1].T if separate else None)
 
 
 def lit_factors(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -31,6 +31,16 @@ def followed(lighting: Lighting, side: str) -> tuple[str, ...]:
     return COLOR_MATERIAL[lighting.color_material_mode] if follows else ()
 
 
+def varying(lighting: Lighting, side: str, materials: Iterable[str], color: np.ndarray) -> set[str]:
+    """Return the parameters of "front" or "back" that may differ between vertices.
+
+    `materials` are the names of those that the vertices have, `color` (V, 4) their colours.
+    """
+    own = {name.partition(".")[2] for name in materials if name.startswith(side)}
+    color_varies = color.strides[0] != 0  # a constant is broadcast with stride 0
+    return own | (set(followed(lighting, side)) if color_varies else set())
+
+
 class Reflectances:
     """The material parameters of one side ("front" or "back") at the vertices.
 
@@ -44,9 +54,7 @@ class Reflectances:
         self._material: MaterialState = getattr(lighting, side)
         self._vertices, self._side = vertices, side
         self._tracked = followed(lighting, side)
-        per_vertex = {name.partition(".")[2] for name in vertices.materials if name.startswith(side)}
-        color_varies = vertices.color.strides[0] != 0  # a constant is broadcast with stride 0
-        self.varying = per_vertex | (set(self._tracked) if color_varies else set())
+        self.varying = varying(lighting, side, vertices.materials, vertices.color)
         constant = np.float32(self._material.shininess)
         shininess = vertices.materials.get(f"{side}.shininess", constant)
         self.shininess = np.broadcast_to(shininess, len(vertices.position))

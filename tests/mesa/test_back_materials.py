@@ -76,3 +76,31 @@ def test_back_materials_that_vary_give_the_colours_of_mesa(first, plain):
     for seed in range(first, first + 10):
         comparison = compare(program_of(seed, plain), SIZE)
         assert comparison, f"seed {seed}: {comparison}"
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_a_light_in_the_place_of_a_vertex_makes_its_back_white_like_its_front(follows):
+    """The distance is 0 there, and its attenuation not a number; no register is read that was never written."""
+
+    def program(gl: Any) -> None:
+        for capability in (gl.GL_LIGHTING, gl.GL_LIGHT0):
+            gl.glEnable(capability)
+        if follows:
+            gl.glEnable(gl.GL_COLOR_MATERIAL)
+        gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, 1)
+        gl.glLightfv(gl.GL_LIGHT0, gl.GL_POSITION, (0.0, 0.0, 0.0, 1.0))
+        gl.glLightf(gl.GL_LIGHT0, gl.GL_QUADRATIC_ATTENUATION, 0.5)
+        gl.glShadeModel(gl.GL_FLAT)
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+        for side in (-1, 1):
+            gl.glBegin(gl.GL_TRIANGLES)
+            for x, y in ((side, -1), (side, 1), (0, 0)):
+                color = 0.5, 0.25 * x + 0.5, 0.75, 1.0
+                gl.glColor4f(*color)
+                if not follows:
+                    gl.glMaterialfv(gl.GL_FRONT_AND_BACK, gl.GL_DIFFUSE, color)
+                gl.glVertex2f(x, y)
+            gl.glEnd()
+
+    comparison = compare(program, SIZE)
+    assert comparison, str(comparison)

@@ -48,7 +48,7 @@ from softshadow.programs.fixed_function import (
     units_in_use,
 )
 from softshadow.programs.inverse import UNKNOWN
-from softshadow.programs.stale_registers import PRODUCTS
+from softshadow.programs.lighting import has_stale_products
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
 from softshadow.state import ClipPlanes, Lighting, Points, Polygon, State
 
@@ -68,7 +68,6 @@ PLAIN_POINTS, PLAIN_POLYGON, NO_CLIP_PLANES = Points(), Polygon(), ClipPlanes()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
 NO_NAMES: frozenset[str] = frozenset()
-BACK_PRODUCTS = frozenset([f"back.{name}" for name in PRODUCTS])
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
 WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
@@ -360,9 +359,7 @@ def can_run(command: Draw) -> bool:
         return False
     if leaves_out_triangles(command) or is_outlined_alone(command):
         return False
-    # Mesa's back materials that differ between vertices have stale products (programs.stale_registers)
-    follows = lights.color_material and vertices.color.strides[0]
-    return not (lights.enabled and lights.two_side and (follows or not BACK_PRODUCTS.isdisjoint(vertices.materials)))
+    return not (lights.enabled and lights.two_side and has_stale_products(lights, vertices.materials, vertices.color))
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:
