@@ -215,11 +215,15 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
         begin(context, gl.GL_QUADS)
     primitive = context.primitive
     assert primitive is not None
-    if primitive.position_size == 2 and primitive.limit > len(primitive.positions) + 16:
-        primitive.positions += (x1, y1, 0.0, 1.0, x2, y1, 0.0, 1.0, x2, y2, 0.0, 1.0, x1, y2, 0.0, 1.0)
+    rest: tuple[float, ...] = x1, y1, 0.0, 1.0, x2, y1, 0.0, 1.0, x2, y2, 0.0, 1.0, x1, y2, 0.0, 1.0
+    if primitive.position_size != 2:
+        add_vertex(context, x1, y1)
+        rest = rest[4:]
+    if primitive.position_size == 2 and primitive.limit > len(primitive.positions) + len(rest):
+        primitive.positions += rest
     else:
-        for x, y in ((x1, y1), (x2, y1), (x2, y2), (x1, y2)):
-            add_vertex(context, x, y)
+        for first in range(0, len(rest), 4):
+            add_vertex(context, rest[first], rest[first + 1])
     glEnd()
 
 
