@@ -22,11 +22,43 @@ from softshadow.gl.vertex_format import REST
 NamedValues = Sequence[tuple[str, Values]]
 
 
+class Numbers:
+    """What calls add to a primitive.
+
+    Attributes
+    ----------
+    positions : list         x, y, z, w of each vertex
+    changes : dict           attribute: (place among the positions, value) of each change
+
+    Parameters
+    ----------
+    values : of the calls
+    """
+
+    def __init__(self, values: NamedValues) -> None:
+        self.positions: list[float] = []
+        self.changes: dict[str, list[tuple[int, Values]]] = {}
+        for name, value in values:
+            if name == "position":
+                self.positions += _complete(name, value)
+            else:
+                self.changes.setdefault(name, []).append((len(self.positions), _complete(name, value)))
+        self._place = 0
+
+    def changes_at(self, place: int) -> dict[str, list[tuple[int, Values]]]:
+        """Return the changes for numbers that are added behind so many others, most often as many as before."""
+        if place != self._place:
+            by = place - self._place
+            self.changes = {name: [(start + by, value) for start, value in each] for name, each in self.changes.items()}
+            self._place = place
+        return self.changes
+
+
 class VertexRow:
     """Calls in a row, within a primitive, that add vertices and set their attributes.
 
-    Those up to the first vertex, and to the first call that sets each attribute, decide about the format of the others.
-    These only add numbers, where the calls have as many components.
+    If the vertices before had as many components, all calls only add numbers. Else those up to the first vertex, and to
+    the first call that sets each attribute, decide about the format of the others.
     """
 
     def __init__(self, calls: Sequence[Callable[[], Any]], values: NamedValues) -> None:
@@ -34,35 +66,32 @@ class VertexRow:
         n_first = 1 + max(names.index(name) for name in set(names))
         self._first, self._others = calls[:n_first], calls[n_first:]
         self._sizes = _sizes(values)
-        self._positions: list[float] = []
-        self._changes: dict[str, list[tuple[int, Values]]] = {}
-        for name, value in values[n_first:]:
-            if name == "position":
-                self._positions += _complete(name, value)
-            else:
-                self._changes.setdefault(name, []).append((len(self._positions), _complete(name, value)))
+        self._of_all, self._of_others = Numbers(values), Numbers(values[n_first:])
 
     def __call__(self) -> None:
         """Make the calls."""
-        carry_out(self._first)
-        primitive = thread.context.primitive
-        if primitive is None or not self._adds_numbers(primitive):
-            carry_out(self._others)
-            return
-        place = len(primitive.positions)
-        for name, changes in self._changes.items():
-            primitive.changes[name] += [(place + start, value) for start, value in changes]
-            thread.context.set_attribute(name, changes[-1][1])
-        primitive.positions += self._positions
+        if not self._add(self._of_all):
+            carry_out(self._first)
+            if not self._add(self._of_others):
+                carry_out(self._others)
 
-    def _adds_numbers(self, primitive: Primitive) -> bool:
-        """Return whether the calls after the first ones only add numbers."""
-        sizes, steady = self._sizes, primitive.steady
-        if sizes is None or primitive.waiting is not None or primitive.position_size != sizes["position"]:
+    def _add(self, numbers: Numbers) -> bool:
+        """Add numbers to the open primitive; return False, and do nothing, if calls would do more than that."""
+        context, sizes = thread.context, self._sizes
+        primitive = context.primitive
+        if sizes is None or primitive is None or primitive.waiting is not None:
             return False
-        if len(primitive.positions) + len(self._positions) >= primitive.limit:
+        place = len(primitive.positions)
+        if primitive.position_size != sizes["position"] or place + len(numbers.positions) >= primitive.limit:
             return False
-        return all(steady.get(name) == sizes[name] for name in self._changes)
+        steady = primitive.steady
+        if not all(steady.get(name) == sizes[name] for name in numbers.changes):
+            return False
+        for name, changes in numbers.changes_at(place).items():
+            primitive.changes[name] += changes
+            context.set_attribute(name, changes[-1][1])
+        primitive.positions += numbers.positions
+        return True
 
 
 class MixedPrimitive:

@@ -52,10 +52,9 @@ class Table(NamedTuple):
     numbers (D, 10) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
     user_planes (P, 4): the clip planes of all draws in clip space; positions (V, 4), colors (V, 4), normals (V, 3),
-    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; reflectances (V, 34):
-    materials of vertices, front and back; secondaries (V, 4), fog_coordinates (V,): no rows where no column depends on
-    them; indices (I,) int32; scales (W, 3), shifts (W, 3): of
-    `Views`.
+    texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; reflectances (V, 17 or 34):
+    materials of vertices, front and with two-sided lighting back; secondaries (V, 4), fog_coordinates (V,): no rows
+    where no column depends on them; indices (I,) int32; scales (W, 3), shifts (W, 3): of `Views`.
     """
 
     layout: Layout
@@ -142,7 +141,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
-        _reflectances(draws, arrays.materials),
+        _reflectances(draws, arrays.materials, run.layout.two_side),
         _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, NO_SECONDARY),
         _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, NO_FOG_COORDINATE),
         _texcoords(run, vertices, int(numbers[-1, END])),
@@ -165,7 +164,6 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
 
 
 NO_ROWS, NO_INDICES, NO_COORDINATES = np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL)
-NO_REFLECTANCES = np.empty((0, 2 * lighting.REFLECTANCES), REAL)
 NO_SECONDARY, NO_FOG_COORDINATE = np.array(BLACK, REAL), np.zeros((), REAL)
 
 
@@ -192,21 +190,18 @@ def _optional(
     return read_only(np.concatenate(rows, dtype=REAL))
 
 
-def _reflectances(draws: Sequence[Draw], names: frozenset[str]) -> np.ndarray:
-    """Return the front and back materials (V, 34) of the vertices of all draws; no rows if vertices have none."""
-    if not names:
-        return read_only(NO_REFLECTANCES)
-    columns = scratch((sum([len(draw.vertices.position) for draw in draws]), 2 * lighting.REFLECTANCES), REAL)
-    start = 0
-    for draw in draws:
+def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -> np.ndarray:
+    """Return the materials of the vertices of all draws, (V, 17 or 34); no rows if vertices have none."""
+    n_vertices = sum([len(draw.vertices.position) for draw in draws]) if names else 0
+    rows, start = scratch((n_vertices, 1 + two_side, lighting.REFLECTANCES), REAL), 0
+    for draw in draws if names else ():
         vertices, constants = draw.vertices, _rows(draw.state.lighting, names).materials
-        own = columns[start : start + len(vertices.position)].reshape(-1, 2, lighting.REFLECTANCES)
-        own[:] = constants[:, : lighting.REFLECTANCES]
-        for name, values in vertices.materials.items():
-            side, _, parameter = name.partition(".")
-            own[:, SIDES.index(side), lighting.REFLECTANCE_COLUMNS[parameter]] = values
-        start += len(own)
-    return read_only(columns)
+        end = start + len(vertices.position)
+        for side, constant, own in zip(SIDES, constants, rows[start:end].swapaxes(0, 1), strict=False):
+            for name, columns in lighting.REFLECTANCE_COLUMNS.items():
+                own[:, columns] = vertices.materials.get(f"{side}.{name}", constant[columns])
+        start = end
+    return read_only(rows.reshape(n_vertices, (1 + two_side) * lighting.REFLECTANCES))
 
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
