@@ -33,7 +33,7 @@ from softshadow.errors import StateError
 from softshadow.framebuffer import Storage, default_framebuffer
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
-from softshadow.pipeline.commands import NO_UNIFORMS, Command, Draw, Origin, Vertices, draws_like
+from softshadow.pipeline.commands import NO_UNIFORMS, Command, Draw, Origin, Vertices, draws_like, moved_draws
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -353,6 +353,14 @@ class Context(CurrentValues, Precision):
         for mode, same in groupby(others, itemgetter(0)):
             with_current = [(self._with_current(vertices), indices) for _, vertices, indices in same]
             self._carry_out_alike(draws_like(before._replace(mode=mode), *zip(*with_current, strict=True)))
+
+    def draw_moved(self, before: Draw, others: Iterable[tuple[Vertices, np.ndarray | None, np.ndarray, int]]) -> None:
+        """Draw other primitives like those of the latest draw, of which only the modelview matrix has changed since.
+
+        `others` are vertices with arrays of the same attributes, indices, modelview matrices and their kinds.
+        """
+        draws = moved_draws(before, [(self._with_current(each[0]), each[1], each[2], each[3]) for each in others])
+        self._carry_out_several(draws, self._waiting.add_like)
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""

@@ -11,11 +11,15 @@ from softshadow import tokens as gl
 
 @dataclass
 class DisplayList:
-    """The calls between glNewList and glEndList, in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE."""
+    """The calls between glNewList and glEndList, in order; `mode` is GL_COMPILE or GL_COMPILE_AND_EXECUTE.
+
+    `character` is a `softshadow.gl.list_characters.Character` if it is like one, else None.
+    """
 
     name: int
     mode: int
     calls: list[Callable[[], Any]] = field(default_factory=list)
+    character: Any = None
 
     @property
     def executes(self) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -181,6 +181,22 @@ class MatrixStack:
         self.end += 4 * NUMBER
         self.known = None
         self.unresolved_kind |= TRANSLATED
+
+    def translate_in_turn(self, moves: Sequence[tuple[float, float, float]]) -> np.ndarray:
+        """Multiply by translations, one after the other; return the matrices (N, 4, 4) after each, read-only."""
+        self._compute()
+        current = self._levels[len(self.below)]
+        matrices = np.empty((1 + len(moves), 4, 4), self._dtype)
+        matrices[0] = current
+        numbers = [number for move in moves for number in (PUSH, TRANSLATE, *move)]
+        self._carry_out(np.array(numbers, np.float64), len(numbers), matrices, 0)
+        self._computed += len(numbers) * NUMBER
+        current[...] = matrices[-1]
+        matrices.setflags(write=False)
+        if moves:
+            self.known = matrices[-1]
+            self.unresolved_kind |= TRANSLATED
+        return matrices[1:]
 
     def scale(self, x: float, y: float, z: float) -> None:
         """Multiply by a scale."""

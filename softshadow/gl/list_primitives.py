@@ -72,7 +72,7 @@ class ListPrimitive:
         if _is_left_out(context):
             fail(gl.GL_INVALID_OPERATION, "glCallList", "a list that begins a primitive, between glBegin and glEnd")
             return
-        if not _is_between_primitives(context):
+        if not is_between_primitives(context):
             carry_out(self.calls)
             return
         self.draw(context)
@@ -151,7 +151,7 @@ class SimilarPrimitives:
     def __call__(self) -> None:
         """Draw the primitives, and make the attributes of the last one current."""
         context = current()
-        if _is_left_out(context) or not _is_between_primitives(context):
+        if _is_left_out(context) or not is_between_primitives(context):
             carry_out(self.primitives)
             return
         first, others, separate = self.primitives[0], self.primitives[1:], self._separate
@@ -221,13 +221,13 @@ def joined_primitive(members: Sequence[ListPrimitive], mode: int, indices: np.nd
 def with_similar_joined(calls: list[Callable[[], Any]]) -> list[Callable[[], Any]]:
     """Return the calls of a list with primitives in a row that are similar as one call."""
     result: list[Callable[[], Any]] = []
-    for key, part in groupby(calls, _similarity):
+    for key, part in groupby(calls, similarity):
         similar: list[Any] = list(part)
         result += [SimilarPrimitives(similar)] if key is not None and len(similar) > 1 else similar
     return result
 
 
-def _similarity(call: Callable[[], Any]) -> tuple[object, ...] | None:
+def similarity(call: Callable[[], Any]) -> tuple[object, ...] | None:
     """Return what similar primitives have in common, None for other calls."""
     if not isinstance(call, ListPrimitive) or COLOR in call.starts or any(call.starts.values()):
         return None
@@ -239,7 +239,7 @@ def _is_left_out(context: Context) -> bool:
     return context.primitive is not None
 
 
-def _is_between_primitives(context: Context) -> bool:
+def is_between_primitives(context: Context) -> bool:
     """Return whether a glBegin would begin a primitive, in an empty vertex buffer."""
     buffer = context.vertex_buffer
     if context.primitive is not None or not context.list_depth:
@@ -268,4 +268,11 @@ def carry_out(calls: Iterable[Callable[[], Any]]) -> None:
         raise first_error
 
 
-__all__ = ["ListPrimitive", "carry_out", "joined_primitive", "with_similar_joined"]
+__all__ = [
+    "ListPrimitive",
+    "carry_out",
+    "is_between_primitives",
+    "joined_primitive",
+    "similarity",
+    "with_similar_joined",
+]

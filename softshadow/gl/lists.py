@@ -6,6 +6,7 @@ become arrays (`list_compiling`).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from ctypes import c_uint
 from functools import partial
 from typing import Any
@@ -16,6 +17,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, DisplayList, current, thread
 from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
+from softshadow.gl.list_characters import Character, character_of, draw_text
 from softshadow.gl.list_compiling import with_primitives
 from softshadow.gl.list_primitives import carry_out
 from softshadow.gl.names import has_memory_for, reserve
@@ -73,6 +75,7 @@ def glEndList() -> None:
     compiled, context.compiled_list, context.ready = context.compiled_list, None, False
     if compiled is not None:
         compiled.calls = with_primitives(context, compiled.calls)
+        compiled.character = character_of(compiled.calls)
         context.lists[compiled.name] = compiled
         reserve(context, "list", compiled.name)
     if outside_begin("glEndList") is None:
@@ -121,7 +124,32 @@ def glCallLists(*arguments: Any) -> None:
         lists = lists[:n]
     characters = lists.encode() if isinstance(lists, str) else lists
     names = list(characters) if isinstance(characters, bytes) else np.ravel(characters).tolist()
-    carry_out(partial(_call, context, context.list_base + int(name)) for name in names)
+    carry_out(_calls_of(context, [context.list_base + int(name) for name in names]))
+
+
+def _calls_of(context: Context, names: Sequence[int]) -> Iterator[Callable[[], None]]:
+    """Yield what calls the lists of these names; characters in a row are called together."""
+    text: list[int] = []
+    key = None
+    for name in names:
+        compiled = context.lists.get(name)
+        character: Character | None = None if compiled is None else compiled.character
+        if text and (character is None or (key and character.key not in (key, None))):
+            yield partial(_call_text, context, text)
+            text, key = [], None
+        if character is None:
+            yield partial(_call, context, name)
+        else:
+            text.append(name)
+            key = key or character.key
+    if text:
+        yield partial(_call_text, context, text)
+
+
+def _call_text(context: Context, names: Sequence[int]) -> None:
+    characters = [context.lists[name].character for name in names]
+    if len(names) == 1 or context.list_depth == DEEPEST_LIST or not draw_text(context, characters):
+        carry_out(partial(_call, context, name) for name in names)
 
 
 def _call(context: Context, name: int) -> None:

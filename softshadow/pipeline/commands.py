@@ -133,6 +133,9 @@ class Draw(NamedTuple):
         return token_name(self.called_mode, PRIMITIVES)
 
 
+BEHIND_MODELVIEW, KIND = Draw._fields.index("modelview") + 1, Draw._fields.index("modelview_kind")
+
+
 def draws_like(
     draw: Draw, vertices: Iterable[Vertices], indices: Iterable[np.ndarray | None] | None = None
 ) -> list[Draw]:
@@ -143,6 +146,15 @@ def draws_like(
     state, mode, _, its_indices, *others = draw
     pairs = zip(vertices, repeat(its_indices)) if indices is None else zip(vertices, indices, strict=True)
     return [Draw._make((state, mode, each, own, *others)) for each, own in pairs]
+
+
+def moved_draws(draw: Draw, moved: Iterable[tuple[Vertices, np.ndarray | None, np.ndarray, int]]) -> list[Draw]:
+    """Return a draw for each of several vertices, indices, modelview matrices and their kinds; else they are alike."""
+    state, mode, before, behind = draw.state, draw.mode, draw[BEHIND_MODELVIEW:KIND], draw[KIND + 1 :]
+    return [
+        Draw._make((state, mode, vertices, indices, modelview, *before, kind, *behind))
+        for vertices, indices, modelview, kind in moved
+    ]
 
 
 @dataclass(frozen=True, eq=False)
