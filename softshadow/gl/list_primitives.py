@@ -154,31 +154,36 @@ class SimilarPrimitives:
         if _is_left_out(context) or not is_between_primitives(context):
             carry_out(self.primitives)
             return
-        first, others, separate = self.primitives[0], self.primitives[1:], self._separate
+        first, others = self.primitives[0], self.primitives[1:]
         constants = first.begin_draw(context)
-        if separate is not None and can_be_joined(context) and can_be_separated(context.drawn_state, *self._modes):
-            context.draw(separate.mode, separate.vertices(constants), separate.indices, self._pairs_mode)
+        if self.separate is not None and self.are_separate_in(context):
+            separate = self.separate
+            context.draw(separate.mode, separate.vertices(constants), separate.indices, self.pairs_mode)
         else:
             draw = context.draw(first.mode, first.vertices(constants), first.indices)
             context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in others])
         self.primitives[-1].make_current(context)
         context.flush()
 
+    def are_separate_in(self, context: Context) -> bool:
+        """Return whether `separate`, if they can be that, have the same pixels under the current state."""
+        return can_be_joined(context) and can_be_separated(context.drawn_state, *self.modes)
+
     @cached_property
-    def _modes(self) -> tuple[int, frozenset[int]]:
+    def modes(self) -> tuple[int, frozenset[int]]:
         """The mode of the first one, and the modes of all."""
         return self.primitives[0].mode, frozenset(primitive.mode for primitive in self.primitives)
 
     @cached_property
-    def _pairs_mode(self) -> int:
+    def pairs_mode(self) -> int:
         """Their `Draw.pairs_mode`: none for primitives that are separate already."""
-        first, modes = self._modes
+        first, modes = self.modes
         return 0 if first in SEPARATE else pairs_mode_of([*modes])
 
     @cached_property
-    def _separate(self) -> ListPrimitive | None:
+    def separate(self) -> ListPrimitive | None:
         """All of them as separate primitives; None if they cannot be."""
-        first, modes = self._modes
+        first, modes = self.modes
         if len(modes) > 1 and not STRIPS.issuperset(modes):
             return None
         if not all(_can_be_separate(primitive) for primitive in self.primitives):
@@ -270,6 +275,7 @@ def carry_out(calls: Iterable[Callable[[], Any]]) -> None:
 
 __all__ = [
     "ListPrimitive",
+    "SimilarPrimitives",
     "carry_out",
     "is_between_primitives",
     "joined_primitive",

@@ -133,7 +133,9 @@ def _calls_of(context: Context, names: Sequence[int]) -> Iterator[Callable[[], N
     key = None
     for name in names:
         compiled = context.lists.get(name)
-        character: Character | None = None if compiled is None else compiled.character
+        if compiled is None or not compiled.calls:
+            continue
+        character: Character | None = compiled.character
         if text and (character is None or (key and character.key not in (key, None))):
             yield partial(_call_text, context, text)
             text, key = [], None

@@ -10,7 +10,7 @@ from gl.what_happened import SIZE, Call, what_happened
 from softshadow import gl
 from softshadow.gl import list_characters, lists
 
-MODES = gl.GL_QUADS, gl.GL_TRIANGLES, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_POLYGON
+MODES = gl.GL_QUADS, gl.GL_TRIANGLES, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_POLYGON, gl.GL_TRIANGLE_FAN
 N_LISTS = 8
 ATTRIBUTES = {"glTexCoord2f": 2, "glNormal3f": 3, "glMultiTexCoord3f": 3, "glColor3f": 3, "glFogCoordf": 1}
 
@@ -48,7 +48,8 @@ class Author:
         return "glTranslatef", (*self.floats(2), 0 if self.chance(0.5) else 0.25)
 
     def character(self) -> list[Call]:
-        primitives = self.primitive() if self.chance(0.85) else []
+        n_primitives = int(self.rng.choice([0, 1, 1, 1, 2, 3]))
+        primitives = [call for _ in range(n_primitives) for call in self.primitive()]
         return primitives + [self.move() for _ in range(int(self.rng.choice([0, 1, 1, 1, 2])))]
 
     def between(self) -> list[Call]:
