@@ -143,16 +143,13 @@ class DrawQueue:
         return len(commands) if self._add_others(commands[0], commands[1:]) else 1
 
     def add_like(self, commands: Sequence[Draw]) -> int:
-        """Let draws wait that differ from the first one in vertices and modelview matrix only, as `add_alike` does.
-
-        They may have arrays of other attributes than the first one.
-        """
+        """Let draws wait that differ from the first one in vertices and modelview matrix only, as `add_alike` does."""
         if not self.add(commands[0]):
             return 0
         if len(commands) == 1 or self._kind is None:
             return 1
-        continues, first = self._kind.run.continues, commands[0]
-        others = list(takewhile(lambda command: continues(command, first), commands[1:]))
+        continues, first = self._kind.run.continues_moved, commands[0]
+        others = list(takewhile(continues, commands[1:]))
         return 1 + len(others) if self._add_others(first, others) else 1
 
     def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
