@@ -7,7 +7,7 @@ long as its calls. So such draws wait with their numbers until something else is
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from itertools import chain, repeat
 from typing import Any, NamedTuple, Protocol
 
@@ -103,59 +103,52 @@ class LateDraws:
     def take(self) -> tuple[list[list[Draw]], list[np.ndarray]]:
         """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only.
 
-        They have arrays of the same attributes. And the memory of their arrays, which they share.
+        They have arrays of the same attributes. And the memory of these arrays, which they share.
         """
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        fours, threes = self._rows(draws)
-        memory = [base for rows in (fours, threes) if (base := rows.base) is not None and base.size]
-        fours_at = threes_at = 0
+        forms: dict[Hashable, list[LateDraw]] = {}
+        keys = [(len(draw.vertices.primitive.positions), draw.columns, id(draw.texcoords)) for draw in draws]
+        for key, draw in zip(keys, draws, strict=True):
+            forms.setdefault(key, []).append(draw)
+        memory: list[np.ndarray] = []
+        vertices = {key: iter(self._vertices(same, memory)) for key, same in forms.items()}
         lists: list[list[Draw]] = []
         like = columns = None
-        for same in _in_runs(draws):
-            first, n_rows = same[0], sum([len(draw.vertices.primitive.positions) for draw in same]) // 4
-            n_threes = n_rows * first.columns.count("normal")
-            n_fours = n_rows * (1 + len(first.columns)) - n_threes
-            fours_end, threes_end = fours_at + n_fours, threes_at + n_threes
-            vertices = self._vertices(same, fours[fours_at:fours_end], threes[threes_at:threes_end], memory)
-            fours_at, threes_at = fours_end, threes_end
-            if first.like is not like or first.columns != columns:
-                like, columns = first.like, first.columns
+        for key, draw in zip(keys, draws, strict=True):
+            if draw.like is not like or draw.columns != columns:
+                like, columns = draw.like, draw.columns
                 lists.append([])
-            lists[-1] += map(LateDraw.made, same, vertices)
+            lists[-1].append(draw.made(next(vertices[key])))
         return lists, memory
 
-    def _vertices(
-        self, draws: Sequence[LateDraw], fours: np.ndarray, threes: np.ndarray, memory: list[np.ndarray]
-    ) -> Iterable[Vertices]:
-        """Return the vertices of draws with as many vertices, of which `_rows` has these rows; add to the memory."""
+    def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
+        """Return the vertices of draws with as many vertices and the same attributes; add their memory."""
         first, n_draws = draws[0], len(draws)
         count = len(first.vertices.primitive.positions) // 4
         names = ["position", *[name for name in first.columns if name != "normal"]]
+        fours, threes = self._rows(draws)
+        memory += [base for rows in (fours, threes) if (base := rows.base) is not None and base.size]
         by_draw = fours.reshape(n_draws, len(names), count, 4)
         columns: dict[str, Iterable[np.ndarray]] = {name: by_draw[:, place] for place, name in enumerate(names)}
         if "normal" in first.columns:
             columns["normal"] = threes.reshape(n_draws, count, 3)
         else:
-            columns["normal"] = self._constants([draw.normal for draw in draws], count, memory)
+            columns["normal"] = self._constants([draw.normal for draw in draws], count)
         if "color" not in columns:
-            columns["color"] = self._constants([draw.color for draw in draws], count, memory)
+            columns["color"] = self._constants([draw.color for draw in draws], count)
         texcoords: Iterable[tuple[np.ndarray, ...]] = repeat(first.texcoords.rows(count))
         units = [(SLOTS[name] - TEXCOORD, columns[name]) for name in names if name.startswith("texcoord")]
         for unit, column in units:
             texcoords = [(*each[:unit], rows, *each[unit + 1 :]) for each, rows in zip(texcoords, column, strict=False)]
         return map(Vertices, columns["position"], columns["color"], columns["normal"], texcoords)
 
-    def _constants(
-        self, values: Sequence[tuple[float, ...]], count: int, memory: list[np.ndarray]
-    ) -> Iterable[np.ndarray]:
-        """Return read-only views of `count` equal rows for each value; add to the memory."""
+    def _constants(self, values: Sequence[tuple[float, ...]], count: int) -> Iterable[np.ndarray]:
+        """Return read-only views of `count` equal rows for each value."""
         if len(set(map(id, values))) == 1:
             return repeat(self._precision.constant(values[0], count))
         numbers, width = self._precision.numbers(), len(values[0])
         numbers.extend(chain.from_iterable(values))
         rows = self._precision.rows(numbers, width)
-        if rows.base is not None:
-            memory.append(rows.base)
         return np.broadcast_to(rows[:, np.newaxis], (len(values), count, width))
 
     def _rows(self, draws: Sequence[LateDraw]) -> tuple[np.ndarray, np.ndarray]:
@@ -170,19 +163,3 @@ class LateDraws:
             for name in draw.columns:
                 (threes if name == "normal" else fours).extend(primitive.components(name, ()))
         return self._precision.rows(fours, 4), self._precision.rows(threes, 3)
-
-
-def _in_runs(draws: Sequence[LateDraw]) -> list[list[LateDraw]]:
-    """Return the draws in runs of one form: like the same draw, with as many vertices that carry the same."""
-    runs: list[list[LateDraw]] = []
-    like = columns = texcoords = None
-    count = -1
-    for draw in draws:
-        n_numbers = len(draw.vertices.primitive.positions)
-        is_same = draw.like is like and n_numbers == count and draw.columns == columns
-        if is_same and draw.texcoords is texcoords:
-            runs[-1].append(draw)
-            continue
-        like, count, columns, texcoords = draw.like, n_numbers, draw.columns, draw.texcoords
-        runs.append([draw])
-    return runs
