@@ -35,8 +35,10 @@ from softshadow.state import State, TextureUnit
 from softshadow.texture import Texture
 
 try:
+    from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING
+    from softshadow.pipeline.fast.batch.assembly import width_of
     from softshadow.pipeline.fast.batch.geometry import Setting, setting_of
-    from softshadow.pipeline.fast.batch.run import WORTH_COMPARING, Run, key_of, structure_of, width_of
+    from softshadow.pipeline.fast.batch.run import Run, key_of, structure_of
     from softshadow.pipeline.fast.batch.segments import geometry_key
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits

@@ -26,7 +26,8 @@ from softshadow.pipeline.shade.visible_spans import VisibleSpans
 from softshadow.state import State
 
 try:
-    from softshadow.pipeline.fast.batch.run import Run, can_begin_run
+    from softshadow.pipeline.fast.batch.admission import can_begin_run
+    from softshadow.pipeline.fast.batch.run import Run
     from softshadow.pipeline.fast.drawn_surfaces import (
         Watch,
         leaves_nearest,

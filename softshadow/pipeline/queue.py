@@ -40,8 +40,8 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
+    from softshadow.pipeline.fast.batch.admission import least_compared
     from softshadow.pipeline.fast.batch.geometry import geometry_of
-    from softshadow.pipeline.fast.batch.run import least_compared
     from softshadow.pipeline.fast.batch.segments import Part, cut, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL

@@ -10,7 +10,7 @@ from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
 from softshadow.pipeline import queue, use_short_cuts
-from softshadow.pipeline.fast.batch.run import WORTH_COMPARING
+from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING
 from softshadow.pipeline.fast.batch.segments import Part
 
 

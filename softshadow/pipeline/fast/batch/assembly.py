@@ -34,6 +34,12 @@ from softshadow.tokens import (
 
 POLYGONS = (GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON)
 MODES = (*POLYGONS, *LINES, GL_POINTS)
+WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
+
+
+def width_of(mode: int) -> int:
+    """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
+    return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == GL_POINTS else WIDTH_OF_LINES
 
 
 def primitive_count(mode: int, n: int) -> int:

@@ -16,16 +16,18 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch.assembly import assemble_draws, assemble_lines_and_points, primitives_of
-from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.lines_and_points import sizes_of_points, stipple_places, widths_of_lines
-from softshadow.pipeline.fast.batch.run import (
+from softshadow.pipeline.fast.batch.admission import least_compared
+from softshadow.pipeline.fast.batch.assembly import (
     WIDTH_OF_LINES,
     WIDTH_OF_POLYGONS,
-    Run,
-    least_compared,
+    assemble_draws,
+    assemble_lines_and_points,
+    primitives_of,
     width_of,
 )
+from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
+from softshadow.pipeline.fast.batch.lines_and_points import sizes_of_points, stipple_places, widths_of_lines
+from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
 from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices

@@ -8,8 +8,9 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.pipeline.commands import NO_UNIFORMS, Draw
+from softshadow.pipeline.fast.batch.admission import PLAIN_POINTS
 from softshadow.pipeline.fast.batch.assembly import primitives_of
-from softshadow.pipeline.fast.batch.run import PLAIN_POINTS, Run
+from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.table import REAL
 from softshadow.pipeline.geometry.geometry import vertex_inputs
 from softshadow.pipeline.geometry.line_stipple import CONTINUES

@@ -15,30 +15,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow import matrices
 from softshadow import tokens as gl
-from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.fast.batch.assembly import MODES, POLYGONS
+from softshadow.pipeline.fast.batch.admission import (
+    can_run,
+    is_filled,
+    is_outlined_alone,
+    leaves_out_triangles,
+)
+from softshadow.pipeline.fast.batch.assembly import POLYGONS, WIDTH_OF_LINES, WIDTH_OF_POLYGONS, width_of
 from softshadow.pipeline.fast.batch.vertices import (
     BY_COORDINATE,
     BY_DISTANCE,
-    EYE_LINEAR,
+    GENERATED,
     HAS_ARRAY,
     NO_FOG,
-    NORMAL_MAP,
-    OBJECT_LINEAR,
-    REFLECTION_MAP,
-    SPHERE_MAP,
     Layout,
 )
 from softshadow.pipeline.geometry.clip import NEAR_FAR
 from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
-from softshadow.pipeline.geometry.vertex import to_clip
-from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
-from softshadow.pipeline.mesa.provoking_vertex import first_provokes
-from softshadow.pipeline.mesa.rectangles import LAST_NINE, TRIANGLE, start_of_last_nine
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, passes_stages
 from softshadow.programs.fixed_function import (
     Unit,
     has_secondary,
@@ -48,14 +46,9 @@ from softshadow.programs.fixed_function import (
     units_in_use,
 )
 from softshadow.programs.inverse import UNKNOWN
-from softshadow.programs.lighting import has_stale_products
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
-from softshadow.state import ClipPlanes, Lighting, Points, Polygon, State
+from softshadow.state import ClipPlanes, Lighting, Polygon, State
 
-GENERATED = {
-    gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
-    gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
-}  # fmt: skip
 # lights and materials differ between the draws of a run; other viewports and scissor boxes begin a segment
 DIFFERENT = ("lighting", "viewport", "scissor", "read_framebuffer")
 GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
@@ -64,14 +57,10 @@ POLYGON, CLIP_PLANES = GROUPS.index("polygon"), GROUPS.index("clip_planes")
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("stencil", "depth", "blend")
 OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in (*OF_TESTS, "clip_planes"))
-PLAIN_POINTS, PLAIN_POLYGON, NO_CLIP_PLANES = Points(), Polygon(), ClipPlanes()
-WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
-STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
+PLAIN_POLYGON, NO_CLIP_PLANES = Polygon(), ClipPlanes()
 NO_NAMES: frozenset[str] = frozenset()
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
-WIDTH_OF_LINES, WIDTH_OF_POLYGONS = 2, 3
-LEAST_HEIGHT = 1 / 8  # half pixels that no rounding makes of nothing: steps of window y are 1/256 pixel or less
 
 
 class Arrays(NamedTuple):
@@ -272,11 +261,6 @@ def has_secondaries(vertices: Vertices) -> bool:
     return vertices.secondary is not None and vertices.secondary.strides[0] != 0
 
 
-def width_of(mode: int) -> int:
-    """Return how many vertices a primitive has that reaches the setup: 3 for polygons, which are cut into triangles."""
-    return WIDTH_OF_POLYGONS if mode in POLYGONS else 1 if mode == gl.GL_POINTS else WIDTH_OF_LINES
-
-
 def groups_of(command: Draw) -> tuple[object, ...]:
     """Return the groups of a draw's state that are those of the run, without what does not matter.
 
@@ -316,82 +300,6 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
         run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
     )  # fmt: skip
-
-
-def leaves_out_triangles(command: Draw) -> bool:
-    """Return whether llvmpipe may leave out triangles of a draw of separate triangles (`mesa.rectangles`).
-
-    It leaves out three, of which the last one has no height in the window.
-    """
-    if command.mode != gl.GL_TRIANGLES or command.indices is not None:
-        return False
-    positions = command.vertices.position
-    first = start_of_last_nine(len(positions))
-    if first < 0:
-        return False
-    last = positions[first + LAST_NINE - TRIANGLE : first + LAST_NINE]
-    clip = to_clip(matrices.multiply(command.projection, command.modelview), last).astype(np.float64)
-    with np.errstate(all="ignore"):
-        heights = clip[:, 1] / clip[:, 3]
-    return not (heights.max() - heights.min()) * command.state.viewport.height > LEAST_HEIGHT
-
-
-def is_filled(polygon: Polygon) -> bool:
-    """Return whether polygons are drawn whole: their edges do not matter."""
-    return polygon.mode_front == gl.GL_FILL and polygon.mode_back == gl.GL_FILL and not polygon.stippled
-
-
-def is_outlined_alone(command: Draw) -> bool:
-    """Return whether a draw of unfilled or stippled polygons has edge flags, or is large.
-
-    A large one is looked for on its own, but for joined pairs, whose arrays are new in each frame.
-    """
-    vertices = command.vertices
-    if is_filled(command.state.polygon):
-        return False
-    is_large = len(vertices.position) >= WORTH_COMPARING and not command.pairs_mode
-    return vertices.edges is not None or is_large
-
-
-def least_compared(command: Draw) -> int:
-    """Return how many vertices make a draw worth comparing with recent ones: it may be drawn in several passes."""
-    return STRIPS_WORTH_COMPARING if command.pairs_mode else WORTH_COMPARING
-
-
-def can_run(command: Draw) -> bool:
-    """Return whether a draw can be processed in a table, as far as its vertices and its primitives decide it."""
-    if command.mode not in MODES or command.program_name or command.linear or command.joined_positions is not None:
-        return False
-    vertices, lights = command.vertices, command.state.lighting
-    if vertices.position.dtype != np.float32 or command.modelview_kind & UNKNOWN:
-        return False
-    if leaves_out_triangles(command) or is_outlined_alone(command):
-        return False
-    return not (lights.enabled and lights.two_side and has_stale_products(lights, vertices.materials, vertices.color))
-
-
-def can_begin_run(command: Draw, target: Framebuffer) -> bool:
-    """Return whether a draw can be processed in a table, as far as its state decides it."""
-    state = command.state
-    if not can_run(command) or not target.attachments:
-        return False
-    if not _are_covered(command.mode, state) or first_provokes(state):
-        return False
-    modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
-    return all(mode in GENERATED for mode in modes)
-
-
-def _are_covered(mode: int, state: State) -> bool:
-    """Return whether primitives of a mode can be set up together: unfilled or stippled polygons if they are plain."""
-    points, lines, polygon = state.points, state.lines, state.polygon
-    if width_of(mode) < WIDTH_OF_POLYGONS or not passes_stages(state):
-        return True
-    if lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
-        return False
-    front, back = effective_modes(state)
-    if (front, back) == (gl.GL_FILL, gl.GL_FILL):
-        return polygon.stippled
-    return not polygon.stippled and (front == back or not offset_is_on(polygon))
 
 
 def _generation(run: Run) -> tuple[np.ndarray, np.ndarray, bool]:

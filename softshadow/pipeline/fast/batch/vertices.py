@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, ONE, ZERO
 from softshadow.pipeline.fast.batch.light_block import light_vertices
@@ -39,6 +40,10 @@ JOINED_STRIPS = -1
 UNIT_MATRIX, UNIT_CONSTANT, UNIT_IS_IDENTITY, UNIT_COLUMNS = 0, 16, 20, 21
 # how a texture coordinate is generated; from EYE_LINEAR on from the eye position, from SPHERE_MAP on from the normal
 SPECIFIED, OBJECT_LINEAR, EYE_LINEAR, SPHERE_MAP, REFLECTION_MAP, NORMAL_MAP = range(6)
+GENERATED = {
+    gl.GL_OBJECT_LINEAR: OBJECT_LINEAR, gl.GL_EYE_LINEAR: EYE_LINEAR, gl.GL_SPHERE_MAP: SPHERE_MAP,
+    gl.GL_REFLECTION_MAP: REFLECTION_MAP, gl.GL_NORMAL_MAP: NORMAL_MAP,
+}  # fmt: skip
 HAS_ARRAY = 4  # the column after those of the four coordinates: whether a unit has an array of them
 NO_FOG, BY_DISTANCE, BY_COORDINATE = range(3)
 
