@@ -1,4 +1,4 @@
-"""Which draws can be processed in a table, together with others."""
+"""Which draws a table takes; it equals `geometry.geometry.process_geometry`, see fast/test_batch.py."""
 
 from __future__ import annotations
 
