@@ -17,6 +17,7 @@ from softshadow.context import Context, Primitive, thread
 from softshadow.context.arrays import POSITION, SLOT_NAMES
 from softshadow.gl.list_calls import CALLS, Values, value_of
 from softshadow.gl.list_primitives import carry_out
+from softshadow.gl.materials import material_values
 from softshadow.gl.vertex_format import REST
 
 NamedValues = Sequence[tuple[str, Values]]
@@ -106,7 +107,7 @@ class MixedPrimitive:
     def __init__(self, context: Context, calls: Sequence[Any]) -> None:
         within = [(call, _named_value(call)) for call in calls[1:-1]]
         self._calls = [calls[0], *_with_rows(within), self._keep_arrays, calls[-1]]
-        named = [value for _, value in within if value is not None]
+        named = [each for call, value in within for each in ([value] if value is not None else material_values(call))]
         self._n_calls = Counter(name for name, _ in named)  # that set each attribute
         self._arrays = {} if _sizes(named) is None else _arrays_of(context, named)
 
@@ -122,7 +123,7 @@ class MixedPrimitive:
             primitive.arrays = {
                 name: rows
                 for name, rows in self._arrays.items()
-                if name == "position" or len(changes[name]) == 1 + expected[name]
+                if name == "position" or len(changes.get(name, ())) == 1 + expected[name]
             }
 
     def _has_only_own_vertices(self, primitive: Primitive) -> bool:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
@@ -47,6 +50,22 @@ def glMaterialfv(face: int, pname: int, params: Any) -> None:
         _set_shininess("glMaterialfv", context, face, first(params))
     else:
         set_material(context, face, dict.fromkeys(FIELDS[pname], rounded(context, *vector(params, 4))))
+
+
+UNLISTED_MATERIAL = inspect.unwrap(glMaterialfv)  # as display lists keep it
+
+
+def material_values(call: Any) -> list[tuple[str, tuple[float, ...]]]:
+    """Return names and values of what a call in a display list sets, if it is glMaterialfv and sets colours."""
+    if getattr(call, "func", None) is not UNLISTED_MATERIAL:
+        return []
+    face, pname, params = call.args
+    is_known = isinstance(face, int) and face in SIDES and isinstance(pname, int) and pname in FIELDS
+    numbers = np.array(params)
+    if not is_known or numbers.shape != (4,) or numbers.dtype.kind not in "fiu":
+        return []
+    color = tuple(numbers.astype(np.float64).tolist())
+    return [(NAMES[side][field], color) for side in SIDES[face] for field in FIELDS[pname]]
 
 
 @in_lists

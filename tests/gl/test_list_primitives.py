@@ -295,3 +295,34 @@ def test_vertices_among_materials_have_the_same_arrays_each_time(context):
     assert one.normal is other.normal
     assert one.normal[:, 2].tolist() == [1.0, -1.0, 0.5]
     assert one.materials["front.diffuse"][:, 0].tolist() == pytest.approx([0.8, 0.8, 1.0])  # the default is 0.8
+
+
+@pytest.mark.parametrize("face", [gl.GL_FRONT, gl.GL_BACK, gl.GL_FRONT_AND_BACK])
+@pytest.mark.parametrize("follows", [gl.GL_FRONT, gl.GL_FRONT_AND_BACK, None])
+@pytest.mark.parametrize("precision", ["mesa", "exact"])
+def test_materials_of_a_list_are_arrays_with_the_numbers_of_the_calls(monkeypatch, face, follows, precision):
+    """Those that follow glColor do not change; a value from the middle on is none of the first vertices."""
+    calls: list[Call] = [("glNewList", (1, gl.GL_COMPILE)), ("glBegin", (gl.GL_TRIANGLES,))]
+    for vertex in range(9):
+        if vertex % 2 == 0:
+            calls.append(("glMaterialfv", (face, gl.GL_AMBIENT_AND_DIFFUSE, [0.1 * vertex, 0.3, 1.5, 1])))
+        if vertex == 4:
+            calls.append(("glMaterialfv", (face, gl.GL_SPECULAR, np.array([1, 2, 3, 4], np.float32))))
+        calls += [("glNormal3f", (0.0, 0.1 * vertex, 1.0)), ("glVertex2f", (0.1 * vertex, 0.0))]
+    calls += [("glEnd", ()), ("glEndList", ())]
+    if follows is not None:
+        calls += [("glEnable", (gl.GL_COLOR_MATERIAL,)), ("glColorMaterial", (follows, gl.GL_DIFFUSE))]
+    calls += [("glCallList", (1,)), ("glCallList", (1,))]
+    ours = what_happened(calls, precision)
+    monkeypatch.setattr(lists, "with_primitives", lambda context, calls: calls)
+    assert what_happened(calls, precision) == ours
+
+
+def test_a_list_keeps_the_arrays_of_its_materials(context):
+    material = "glMaterialfv", (gl.GL_FRONT, gl.GL_DIFFUSE, (1.0, 0.5, 0.0, 1.0))
+    vertices = [("glVertex3f", (x, x * x, 0.0)) for x in (-1.0, 0.0, 1.0)]
+    compiled(("glBegin", (gl.GL_TRIANGLES,)), material, *vertices, material, *vertices, ("glEnd", ()))
+    for _ in range(2):
+        gl.glCallList(1)
+    one, other = (command.vertices.materials["front.diffuse"] for command in context.frame.commands)
+    assert one is other
