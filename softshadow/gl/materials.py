@@ -52,22 +52,6 @@ def glMaterialfv(face: int, pname: int, params: Any) -> None:
         set_material(context, face, dict.fromkeys(FIELDS[pname], rounded(context, *vector(params, 4))))
 
 
-UNLISTED_MATERIAL = inspect.unwrap(glMaterialfv)  # as display lists keep it
-
-
-def material_values(call: Any) -> list[tuple[str, tuple[float, ...]]]:
-    """Return names and values of what a call in a display list sets, if it is glMaterialfv and sets colours."""
-    if getattr(call, "func", None) is not UNLISTED_MATERIAL:
-        return []
-    face, pname, params = call.args
-    is_known = isinstance(face, int) and face in SIDES and isinstance(pname, int) and pname in FIELDS
-    numbers = np.array(params)
-    if not is_known or numbers.shape != (4,) or numbers.dtype.kind not in "fiu":
-        return []
-    color = tuple(numbers.astype(np.float64).tolist())
-    return [(NAMES[side][field], color) for side in SIDES[face] for field in FIELDS[pname]]
-
-
 @in_lists
 def glMaterialiv(face: int, pname: int, params: Any) -> None:
     """Set a material parameter from integers; colours use the full range of int."""
@@ -140,6 +124,22 @@ def set_material(context: Context, face: int, fields: Mapping[str, Any]) -> None
                 primitive.materials |= {name}
                 primitive.change(name, context.attribute(name), value)
             context.set_material(side, field, value)
+
+
+UNLISTED_MATERIAL = inspect.unwrap(glMaterialfv)  # as display lists keep it
+
+
+def material_values(call: Any) -> list[tuple[str, tuple[float, ...]]]:
+    """Return names and values of what a call in a display list sets, if it is glMaterialfv and sets colours."""
+    if getattr(call, "func", None) is not UNLISTED_MATERIAL:
+        return []
+    face, pname, params = call.args
+    is_known = isinstance(face, int) and face in SIDES and isinstance(pname, int) and pname in FIELDS
+    numbers = np.array(params)
+    if not is_known or numbers.shape != (4,) or numbers.dtype.kind not in "fiu":
+        return []
+    color = tuple(numbers.astype(np.float64).tolist())
+    return [(NAMES[side][field], color) for side in SIDES[face] for field in FIELDS[pname]]
 
 
 # -- colours that follow glColor ---------------------------------------------------------------------------------------

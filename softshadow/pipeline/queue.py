@@ -40,7 +40,7 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.admission import least_compared
+    from softshadow.pipeline.fast.batch.admission import continues_moved, least_compared
     from softshadow.pipeline.fast.batch.geometry import geometry_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
@@ -146,11 +146,8 @@ class DrawQueue:
         """Let draws wait that differ from the first one in vertices and modelview matrix only, as `add_alike` does."""
         if not self.add(commands[0]):
             return 0
-        if len(commands) == 1 or self._kind is None:
-            return 1
-        continues, first = self._kind.run.continues_moved, commands[0]
-        others = list(takewhile(continues, commands[1:]))
-        return 1 + len(others) if self._add_others(first, others) else 1
+        others = list(takewhile(continues_moved, commands[1:]))
+        return 1 + len(others) if others and self._add_others(commands[0], others) else 1
 
     def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
         """Let draws wait that continue the first one, the last that waits; do nothing if they are many or large."""

@@ -1,4 +1,4 @@
-"""Which draws a table takes; it equals `geometry.geometry.process_geometry`, see fast/test_batch.py."""
+"""Which draws a table takes, so that it equals `geometry.geometry.process_geometry`, see fast/test_batch.py."""
 
 from __future__ import annotations
 
@@ -74,6 +74,14 @@ def can_run(command: Draw) -> bool:
     if leaves_out_triangles(command) or is_outlined_alone(command):
         return False
     return not (lights.enabled and lights.two_side and has_stale_products(lights, vertices.materials, vertices.color))
+
+
+def continues_moved(command: Draw) -> bool:
+    """Return whether a draw continues a run if it differs from the draw before in vertices and modelview matrix only.
+
+    It is small (`least_compared`), and has arrays of the same attributes.
+    """
+    return not (command.modelview_kind & UNKNOWN or leaves_out_triangles(command))
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:

@@ -31,8 +31,8 @@ NO_SPOT = (0.0,) * 5  # direction, exponent and cosine of a light that shines in
 MATERIAL_AMBIENT, MATERIAL_DIFFUSE, MATERIAL_SPECULAR, EMISSION, SHININESS, MODEL_AMBIENT = 0, 4, 8, 12, 16, 17
 REFLECTANCES = MODEL_AMBIENT  # columns of a side that vertices may have instead
 REFLECTANCE_COLUMNS: dict[str, int | slice] = {
-    "ambient": slice(0, 4), "diffuse": slice(4, 8), "specular": slice(8, 12), "emission": slice(12, 16),
-    "shininess": SHININESS,
+    "ambient": slice(MATERIAL_AMBIENT, MATERIAL_DIFFUSE), "diffuse": slice(MATERIAL_DIFFUSE, MATERIAL_SPECULAR),
+    "specular": slice(MATERIAL_SPECULAR, EMISSION), "emission": slice(EMISSION, SHININESS), "shininess": SHININESS,
 }  # fmt: skip
 # flags of a Lighting
 N_LIGHTS, LOCAL_VIEWER, NORMALIZES, RESCALES, HIGHLIGHTS, NEEDS_EYE, OBJECT_SPACE, FOLLOWS_FRONT, FOLLOWS_BACK = range(

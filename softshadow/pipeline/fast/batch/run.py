@@ -221,14 +221,6 @@ class Run:
         """Return whether a draw differs from one of the run only in what every run allows, as is seen at once."""
         return command.state is taken.state and self.continues_under(command, taken)
 
-    @staticmethod
-    def continues_moved(command: Draw) -> bool:
-        """Return what `continues` returns of a small draw that has other vertices and another modelview matrix only.
-
-        It has arrays of the same attributes as the draw of the run.
-        """
-        return not (command.modelview_kind & UNKNOWN or leaves_out_triangles(command))
-
     def continues_under(self, command: Draw, taken: Draw) -> bool:
         """Return what `continues` returns of a draw whose state has the groups and `structure_of` of the other's."""
         mode = command.mode

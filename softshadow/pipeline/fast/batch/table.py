@@ -192,16 +192,19 @@ def _optional(
 
 def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -> np.ndarray:
     """Return the materials of the vertices of all draws, (V, 17 or 34); no rows if vertices have none."""
-    n_vertices = sum([len(draw.vertices.position) for draw in draws]) if names else 0
-    rows, start = scratch((n_vertices, 1 + two_side, lighting.REFLECTANCES), REAL), 0
-    for draw in draws if names else ():
+    n_sides = 1 + two_side
+    if not names:
+        return read_only(np.empty((0, n_sides * lighting.REFLECTANCES), REAL))
+    n_vertices, start = sum([len(draw.vertices.position) for draw in draws]), 0
+    rows = scratch((n_vertices, n_sides, lighting.REFLECTANCES), REAL)
+    for draw in draws:
         vertices, constants = draw.vertices, _rows(draw.state.lighting, names).materials
         end = start + len(vertices.position)
-        for side, constant, own in zip(SIDES, constants, rows[start:end].swapaxes(0, 1), strict=False):
+        for side, constant, own in zip(SIDES[:n_sides], constants, rows[start:end].swapaxes(0, 1), strict=False):
             for name, columns in lighting.REFLECTANCE_COLUMNS.items():
                 own[:, columns] = vertices.materials.get(f"{side}.{name}", constant[columns])
         start = end
-    return read_only(rows.reshape(n_vertices, (1 + two_side) * lighting.REFLECTANCES))
+    return read_only(rows.reshape(n_vertices, n_sides * lighting.REFLECTANCES))
 
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
