@@ -11,8 +11,9 @@ from typing import Any, Protocol
 
 from softshadow import tokens as gl
 from softshadow.context.pending_attributes import PendingAttributes
+from softshadow.context.primitive import Deferred, Primitive
 from softshadow.context.state_groups import UNDRAWN, Followed, Group, StateGroups, affects_draws
-from softshadow.context.vertex_buffer import Primitive, VertexBuffer
+from softshadow.context.vertex_buffer import VertexBuffer
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
 from softshadow.state import Lighting, State
@@ -44,6 +45,7 @@ class ChangingState:
     pending: PendingAttributes
     touched: int
     primitive: Primitive | None  # between glBegin and glEnd
+    deferred: Deferred | None  # while there is one, stand-ins take the places of `pending` and `vertex_buffer`
     vertex_buffer: VertexBuffer  # immediate mode
     text: CollectedText | None  # bitmaps that are collected; they come before the collected vertices
 
@@ -58,6 +60,8 @@ class ChangingState:
     @property
     def has_collected(self) -> bool:
         """Whether vertices or bitmaps are collected, or attributes wait for the next change of the state."""
+        if self.deferred is not None:
+            return True
         return bool(self.vertex_buffer.sizes or self.pending.reset_due or self.text is not None)
 
     @property

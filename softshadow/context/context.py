@@ -110,7 +110,9 @@ class Context(CurrentValues, Precision):
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         # immediate mode
         self.late = LateDraws(self)
-        self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self._add_late, self.objects)
+        self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self.add_late, self.objects)
+        self.deferred = None
+        self.deferred_before: Any = None  # the same object, while there is none
         self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
@@ -225,7 +227,9 @@ class Context(CurrentValues, Precision):
 
     def flush_vertices(self) -> None:
         """Draw the collected vertices; bitmaps can still be joined to those that are collected."""
-        if self.primitive is None:
+        if self.deferred is not None and self.primitive is None:
+            self.deferred.draw()
+        elif self.primitive is None:
             buffer = self.vertex_buffer
             if buffer.sizes or buffer.n_vertices or buffer.joined_pairs is not None:
                 buffer.flush()
@@ -248,7 +252,7 @@ class Context(CurrentValues, Precision):
         if text is not None:
             self._carry_out(text.command())
 
-    def _add_late(self, draw: LateDraw) -> None:
+    def add_late(self, draw: LateDraw) -> None:
         """Let a draw wait for its arrays."""
         if self.text is not None:
             self._draw_text()

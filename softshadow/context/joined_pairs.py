@@ -7,13 +7,14 @@ costs less (`softshadow.pipeline.geometry.separate`).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.context.late_draws import LateDraw, LateVertices
+from softshadow.context.late_draws import LateDraw
+from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated
 from softshadow.pipeline.mesa.driver_draws import CORNERS, SEPARATE
@@ -24,6 +25,17 @@ OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the la
 Told = tuple[str, Origin | None]  # the debug groups that a pair belongs to ("outer/inner"), and its origin
 
 
+class LateVertices(NamedTuple):
+    """The vertices of one or more pairs, as numbers; `vertices_of` makes their arrays."""
+
+    primitive: Primitive
+    vertices_of: Callable[[Primitive], Vertices]
+
+    def vertices(self) -> Vertices:
+        """Return them."""
+        return self.vertices_of(self.primitive)
+
+
 class JoinedPairs:
     """Joined pairs that are not drawn yet.
 
@@ -31,17 +43,32 @@ class JoinedPairs:
     ----------
     like : Draw              a draw with the state of all
     n_vertices : int         of all pairs
-    parts : list             the debug groups, the origin and the vertices of one or more pairs
     """
 
-    __slots__ = ("_can_be_separated", "_counts", "_first", "like", "n_vertices", "parts")
+    __slots__ = ("_can_be_separated", "_counts", "_first", "_parts", "like", "n_vertices")
 
     def __init__(self, first: Draw | LateDraw, n_vertices: int) -> None:
         self._first, self.n_vertices = first, n_vertices
-        self.like = like = first.like if isinstance(first, LateDraw) else first
-        self.parts: list[tuple[Told, Vertices | LateVertices]] = [((like.label, like.origin), first.vertices)]
+        self.like = first.form.like if isinstance(first, LateDraw) else first
         self._counts = [n_vertices]  # of each pair
-        self._can_be_separated: bool | None = None  # not known before the second pair
+        self._parts: list[tuple[Told, Vertices | LateVertices]] | None = None  # not needed before the second pair
+        self._can_be_separated: bool | None = None  # nor known
+
+    @property
+    def parts(self) -> list[tuple[Told, Vertices | LateVertices]]:
+        """The debug groups, the origin and the vertices of one or more pairs each."""
+        if self._parts is None:
+            first, told = self._first, (self.like.label, self.like.origin)
+            if isinstance(first, LateDraw):
+                self._parts = [(told, LateVertices(first.primitive, first.form.vertices_of))]
+            else:
+                self._parts = [(told, first.vertices)]
+        return self._parts
+
+    @property
+    def only_late(self) -> LateDraw | None:
+        """The draw of the only pair, if its arrays are not made yet."""
+        return self._first if isinstance(self._first, LateDraw) and len(self._counts) == 1 else None
 
     def add(self, told: Told, vertices: Vertices, count: int) -> None:
         """Add a pair of `count` vertices."""
@@ -62,11 +89,13 @@ class JoinedPairs:
         """Replace the last part by one to which pairs can be added."""
         self.parts[-1] = self.parts[-1][0], vertices
 
-    def replace_primitive(self, primitive: Any) -> None:
+    def replace_primitive(self, primitive: Primitive) -> None:
         """Let the last part, whose arrays are not made yet, have the numbers of another primitive."""
-        late = self.parts[-1][1]
-        assert not isinstance(late, Vertices)
-        late.primitive = primitive
+        told, late = self.parts[-1]
+        assert isinstance(late, LateVertices)
+        self.parts[-1] = told, late._replace(primitive=primitive)
+        if isinstance(self._first, LateDraw) and len(self.parts) == 1:
+            self._first = self._first._replace(primitive=primitive)
 
     @property
     def takes_more(self) -> bool:
@@ -85,7 +114,7 @@ class JoinedPairs:
             return [first]
         if isinstance(first, LateDraw) and len(self.parts) == 1:  # which has the vertices of all pairs
             return [first if self.like.mode in SEPARATE else first._replace(counts=tuple(self._counts))]
-        parts = [(told, part if isinstance(part, Vertices) else part.vertices()) for told, part in self.parts]
+        parts = [(told, part.vertices() if isinstance(part, LateVertices) else part) for told, part in self.parts]
         if isinstance(first, LateDraw):
             first = first.made(parts[0][1])
         groups = [(told, [part for _, part in group]) for told, group in groupby(parts, lambda part: part[0])]

@@ -7,7 +7,7 @@ long as its calls. So such draws wait with their numbers until something else is
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from itertools import chain, repeat
 from typing import Any, NamedTuple, Protocol
 
@@ -15,12 +15,13 @@ import numpy as np
 
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import Precision
+from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
-MOST_LIKES = 1024  # as many as there are states that are found again
+MOST_FORMS = 1024  # as many as there are states that are found again
 VERTICES, MODELVIEW, KIND = map(Draw._fields.index, ("vertices", "modelview", "modelview_kind"))
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
@@ -33,37 +34,42 @@ class ConstantTexcoords(Protocol):
         """Return `count` equal rows of each unit."""
 
 
-class LateVertices(Protocol):
-    """Vertices of pairs, whose arrays are made when they are drawn."""
+class LateForm(NamedTuple):
+    """What draws of pairs have in common: all but the numbers of their vertices and their matrix.
 
-    primitive: Any  # which has the numbers
-
-    def vertices(self) -> Vertices:
-        """Return them."""
-
-
-class LateDraw(NamedTuple):
-    """A draw with the numbers of its vertices.
-
-    `like` is a draw that differs in its vertices and its modelview matrix only. The vertices carry the attributes
-    `columns`, which are among the changes of their primitive; the others have the values `color`, `normal` and
-    `texcoords`. It has neither debug groups nor an origin. Where it is of several strips, fans, loops or polygons,
-    `counts` are their numbers of vertices.
+    `like` is a draw that differs from them in its vertices and its modelview matrix only; it has neither debug groups
+    nor an origin. Their vertices carry the attributes `columns`, among them texture coordinates of `units`; those of
+    the others are `texcoords`, which were `current`. `follows`: materials follow their colours. `vertices_of` makes all
+    arrays of a primitive.
     """
 
     like: Draw
-    vertices: LateVertices
     columns: tuple[str, ...]
+    texcoords: ConstantTexcoords
+    current: tuple[tuple[float, ...], ...]
+    units: tuple[int, ...]
+    follows: bool
+    vertices_of: Callable[[Primitive], Vertices]
+
+
+class LateDraw(NamedTuple):
+    """A draw with the numbers of its vertices: those of `primitive`.
+
+    The columns of its form are among the changes of the primitive; the other attributes have the values `color` and
+    `normal`. Where it is of several strips, fans, loops or polygons, `counts` are their numbers of vertices.
+    """
+
+    form: LateForm
+    primitive: Primitive
     color: tuple[float, ...]
     normal: tuple[float, ...]
-    texcoords: ConstantTexcoords
     modelview: np.ndarray
     modelview_kind: int
     counts: tuple[int, ...] = ()
 
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
-        fields: list[Any] = list(self.like)
+        fields: list[Any] = list(self.form.like)
         fields[VERTICES], fields[MODELVIEW], fields[KIND] = vertices, self.modelview, self.modelview_kind
         made = Draw._make(fields)
         return separated(made, self.counts) if self.counts else made
@@ -75,7 +81,7 @@ class LateDraws:
     Attributes
     ----------
     draws : list             these, in their order
-    likes : dict             what the latest one of each mode and state, by its identity, was like
+    forms : dict             the latest ones, by their mode, the identity of their state, and what the vertices carry
 
     Parameters
     ----------
@@ -85,19 +91,19 @@ class LateDraws:
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
         self.draws: list[LateDraw] = []
-        self.likes: dict[tuple[int, int], Draw] = {}
+        self.forms: dict[tuple[Hashable, ...], LateForm] = {}
         self._n_numbers = 0
 
-    def keep_like(self, like: Draw) -> None:
-        """Keep what a draw is like, for others under its state."""
-        if len(self.likes) >= MOST_LIKES:
-            self.likes.clear()
-        self.likes[like.mode, id(like.state)] = like
+    def keep_form(self, key: tuple[Hashable, ...], form: LateForm) -> None:
+        """Keep a form, which keeps its state, for other draws."""
+        if len(self.forms) >= MOST_FORMS:
+            self.forms.clear()
+        self.forms[key] = form
 
     def add(self, draw: LateDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
         self.draws.append(draw)
-        self._n_numbers += len(draw.vertices.primitive.positions)
+        self._n_numbers += len(draw.primitive.positions)
         return self._n_numbers >= MOST_NUMBERS
 
     def take(self) -> tuple[list[list[Draw]], list[np.ndarray]]:
@@ -107,7 +113,7 @@ class LateDraws:
         """
         draws, self.draws, self._n_numbers = self.draws, [], 0
         forms: dict[Hashable, list[LateDraw]] = {}
-        keys = [(len(draw.vertices.primitive.positions), draw.columns, id(draw.texcoords)) for draw in draws]
+        keys = [(len(draw.primitive.positions), draw.form.columns, id(draw.form.texcoords)) for draw in draws]
         for key, draw in zip(keys, draws, strict=True):
             forms.setdefault(key, []).append(draw)
         memory: list[np.ndarray] = []
@@ -115,28 +121,29 @@ class LateDraws:
         lists: list[list[Draw]] = []
         like = columns = None
         for key, draw in zip(keys, draws, strict=True):
-            if draw.like is not like or draw.columns != columns:
-                like, columns = draw.like, draw.columns
+            form = draw.form
+            if form.like is not like or form.columns != columns:
+                like, columns = form.like, form.columns
                 lists.append([])
             lists[-1].append(draw.made(next(vertices[key])))
         return lists, memory
 
     def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
         """Return the vertices of draws with as many vertices and the same attributes; add their memory."""
-        first, n_draws = draws[0], len(draws)
-        count = len(first.vertices.primitive.positions) // 4
-        names = ["position", *[name for name in first.columns if name != "normal"]]
+        form, n_draws = draws[0].form, len(draws)
+        count = len(draws[0].primitive.positions) // 4
+        names = ["position", *[name for name in form.columns if name != "normal"]]
         fours, threes = self._rows(draws)
         memory += [base for rows in (fours, threes) if (base := rows.base) is not None and base.size]
         by_draw = fours.reshape(n_draws, len(names), count, 4)
         columns: dict[str, Iterable[np.ndarray]] = {name: by_draw[:, place] for place, name in enumerate(names)}
-        if "normal" in first.columns:
+        if "normal" in form.columns:
             columns["normal"] = threes.reshape(n_draws, count, 3)
         else:
             columns["normal"] = self._constants([draw.normal for draw in draws], count)
         if "color" not in columns:
             columns["color"] = self._constants([draw.color for draw in draws], count)
-        texcoords: Iterable[tuple[np.ndarray, ...]] = repeat(first.texcoords.rows(count))
+        texcoords: Iterable[tuple[np.ndarray, ...]] = repeat(form.texcoords.rows(count))
         units = [(SLOTS[name] - TEXCOORD, columns[name]) for name in names if name.startswith("texcoord")]
         for unit, column in units:
             texcoords = [(*each[:unit], rows, *each[unit + 1 :]) for each, rows in zip(texcoords, column, strict=False)]
@@ -154,12 +161,12 @@ class LateDraws:
     def _rows(self, draws: Sequence[LateDraw]) -> tuple[np.ndarray, np.ndarray]:
         """Return the rows of four numbers, and those of three.
 
-        They are the positions of each draw, and behind them what its vertices carry, in the order of `columns`.
+        They are the positions of each draw, and behind them what its vertices carry, in the order of its columns.
         """
         fours, threes = self._precision.numbers(), self._precision.numbers()
         for draw in draws:
-            primitive = draw.vertices.primitive
+            primitive = draw.primitive
             fours.extend(primitive.positions)
-            for name in draw.columns:
+            for name in draw.form.columns:
                 (threes if name == "normal" else fours).extend(primitive.components(name, ()))
         return self._precision.rows(fours, 4), self._precision.rows(threes, 3)

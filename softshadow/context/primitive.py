@@ -20,6 +20,19 @@ class Waiting(Protocol):
         """Compute the numbers."""
 
 
+class Deferred(Protocol):
+    """A glBegin ... glEnd pair for which the work of its calls is deferred (`softshadow.gl.deferred_pairs`)."""
+
+    def store_first(self) -> bool:
+        """Let the first vertex carry what is expected; return False if it is stored already."""
+
+    def end(self) -> bool:
+        """Do what glEnd does; return False if that is left to do."""
+
+    def draw(self) -> None:
+        """Draw the pair after its glEnd, maybe later."""
+
+
 class Primitive:
     """The vertices between glBegin and glEnd, and before them those of the pairs that are drawn together with this one.
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from itertools import dropwhile, groupby
 from operator import attrgetter
+from typing import NamedTuple
 
 from softshadow.context.joined_pairs import JoinedPairs
 from softshadow.context.late_draws import LateDraw
@@ -23,10 +24,29 @@ from softshadow.pipeline.mesa.driver_draws import (
     DriverDraw,
     offset_depends_on_mode,
 )
+from softshadow.state import TEXTURE_UNITS
 
 BYTES = 512 * 1024  # size of the vertex buffer (vbo_exec_draw.c)
 LEAST_BYTES = 1024  # Mesa takes a new buffer when no more than these are left
 NO_DRAW = DriverDraw()  # the driver has drawn all
+
+
+class PairFormat(NamedTuple):
+    """What the vertices of a pair carry whose calls have set all of it before the first vertex.
+
+    sizes: components by attribute, without the position; carried: their names and the position's, as in the buffer.
+    """
+
+    sizes: Mapping[str, int]
+    position_size: int
+    vertex_bytes: int
+    carried: tuple[str, ...]
+
+
+NO_FORMAT = PairFormat({}, 0, 0, ())
+# attributes whose calls look first whether they are steady (`Primitive`)
+CAN_EXPECT = frozenset(("color", "normal", *[f"texcoord{unit}" for unit in range(TEXTURE_UNITS)]))
+MOST_WAITS = 64
 
 
 class VertexBuffer:
@@ -36,6 +56,7 @@ class VertexBuffer:
     ----------
     sizes : dict             attribute: number of components in the collected vertices
     active_sizes : dict      attribute: number of components in the last call (Mesa's active_size)
+    expected : PairFormat    that of the last pair that was drawn alone; `NO_FORMAT` if the next one may have another
     n_vertices : int         number of vertices collected since the last submission
     used_bytes : int         bytes of the buffer before these vertices
     joined_pairs : JoinedPairs or None    those that are not drawn yet, since more may follow
@@ -62,6 +83,7 @@ class VertexBuffer:
         self._storage = storage
         self.sizes: dict[str, int] = {}
         self.active_sizes: dict[str, int] = {}
+        self.expected, self._n_waits, self._waits = NO_FORMAT, 0, 0
         self.n_vertices, self.used_bytes = 0, 0
         self.joined_pairs: JoinedPairs | None = None
         self.paused: Primitive | None = None
@@ -142,7 +164,7 @@ class VertexBuffer:
             for command in joined.commands():
                 if not isinstance(command, LateDraw):
                     self.draw(command)
-                elif not self._part_of(command.like.mode).is_lost:
+                elif not self._part_of(command.form.like.mode).is_lost:
                     self._add_late(command)
 
     def submit(self) -> None:
@@ -153,12 +175,67 @@ class VertexBuffer:
         if self.pairs.n_pairs:
             self.pairs.clear()
         if self.n_vertices:
-            used = self.used_bytes + self.n_vertices * 4 * sum(self.sizes.values())
-            self.used_bytes = used if used + LEAST_BYTES < BYTES else 0
+            self._use(self.n_vertices * 4 * sum(self.sizes.values()))
             self.n_vertices = 0
+
+    def _use(self, n_bytes: int) -> None:
+        used = self.used_bytes + n_bytes
+        self.used_bytes = used if used + LEAST_BYTES < BYTES else 0
 
     def flush(self) -> None:
         """Draw the collected vertices and reset the vertex format."""
         if self.n_vertices or self.joined_pairs is not None:  # pairs without vertices are still counted after this
+            if self._waits:
+                self._waits -= 1
+            else:
+                self.expected = self._format_of_only_pair()
             self.submit()
         self.sizes.clear()
+
+    # -- pairs that are drawn one by one (`softshadow.gl.deferred_pairs`) ----------------------------------------------
+    def _format_of_only_pair(self) -> PairFormat:
+        """Return the format of the collected pair, if it is the only one, and the next one may be expected to be alike.
+
+        Its calls have set all that its vertices carry before the first vertex.
+        """
+        draw = None if self.joined_pairs is None else self.joined_pairs.only_late
+        if (
+            draw is None
+            or draw.primitive.from_list
+            or self.pairs.n_pairs != 1
+            or self.pairs.n_vertices != self.n_vertices
+        ):
+            return NO_FORMAT
+        primitive, sizes = draw.primitive, dict(self.sizes)
+        carried, position_size = tuple(sizes), sizes.pop("position")
+        if primitive.steady != sizes or not CAN_EXPECT.issuperset(sizes) or primitive.position_size != position_size:
+            return NO_FORMAT
+        first_places = [[place for place, _ in primitive.changes[name][1:2]] for name in sizes]
+        if any(places != [0] for places in first_places):
+            return NO_FORMAT
+        return PairFormat(sizes, position_size, 4 * (position_size + sum(sizes.values())), carried)
+
+    def expects_alike(self, n_vertices: int) -> bool:
+        """Return whether the next pair, of at most so many vertices, is expected to have the format of the last one."""
+        if self.expected is NO_FORMAT or self.n_vertices or self.joined_pairs is not None or self.pairs.n_pairs:
+            return False
+        return self.used_bytes + self.expected.vertex_bytes * (n_vertices + 2) < BYTES  # one may end a line loop
+
+    def forget_format(self) -> None:
+        """Expect nothing of the next pairs; of the more, the oftener it has been in vain."""
+        self._n_waits = self._waits = min(2 * self._n_waits + 1, MOST_WAITS)
+        self.expected = NO_FORMAT
+
+    def carry(self, pair: PairFormat) -> None:
+        """Let the vertices carry what those of a pair do."""
+        self.driver_draw = NO_DRAW
+        for sizes in (self.sizes, self.active_sizes):
+            sizes.update(pair.sizes)
+            sizes["position"] = pair.position_size
+
+    def note_drawn(self, pair: PairFormat, n_vertices: int) -> None:
+        """Note that a pair has been drawn, after which the buffer is empty again."""
+        self._n_waits, self.driver_draw = 0, NO_DRAW
+        self.active_sizes.update(pair.sizes)
+        self.active_sizes["position"] = pair.position_size
+        self._use(n_vertices * pair.vertex_bytes)

@@ -12,13 +12,13 @@ from softshadow.context import Context, current, thread
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import vector
+from softshadow.gl.deferred_pairs import defer
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
-from softshadow.gl.pair_numbers import add_resumed, can_be_joined, collect_pair, resume
+from softshadow.gl.pair_numbers import add_resumed, collect_pair, is_collected, resume
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
-from softshadow.pipeline.geometry.separate import SEPARABLE
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
 MODES = frozenset(range(gl.GL_POINTS, gl.GL_POLYGON + 1))
@@ -42,9 +42,12 @@ def glBegin(mode: int) -> None:
             return
         if not (context.ready or is_allowed(context, glBegin, mode)):
             return
-        is_mode = mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)
-        if is_mode and (context.groups[""].fields["draw_framebuffer"] == DEFAULT or can_draw(context, "glBegin")):
-            begin(context, int(mode))
+        if not (mode in MODES or is_one_of("glBegin", "mode", mode, MODES, A_MODE)):
+            return
+        if context.groups[""].fields["draw_framebuffer"] == DEFAULT or can_draw(context, "glBegin"):
+            number = int(mode)
+            if not defer(context, number):
+                begin(context, number)
     except CONVERTING as error:
         raise refusal(glBegin, error, mode) from error
 
@@ -58,6 +61,8 @@ def glEnd() -> None:
     primitive = context.primitive
     if primitive is None:
         fail(gl.GL_INVALID_OPERATION, "glEnd", "there was no glBegin before it")
+        return
+    if context.deferred is not None and context.deferred.end():
         return
     context.primitive, context.ready = None, False
     if primitive.mode == gl.GL_LINE_LOOP and primitive.positions and context.executes_list:
@@ -79,7 +84,7 @@ def glEnd() -> None:
     mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
     if not (primitive.start and add_resumed(context, mode, primitive, count)):
         # a primitive with arrays is drawn again with the same ones
-        if mode in SEPARATE or (mode in SEPARABLE and can_be_joined(context) and not primitive.arrays):
+        if is_collected(context, mode) and not (primitive.arrays and mode not in SEPARATE):
             collect_pair(context, mode, primitive)
         else:
             context.draw_primitive(mode, vertices_of(context, primitive))

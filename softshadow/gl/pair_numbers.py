@@ -6,34 +6,22 @@ vertices of such pairs are those of one `Primitive`: its pair pauses at glEnd, a
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from functools import partial
+from operator import is_
+
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
-from softshadow.context.joined_pairs import Told
-from softshadow.context.late_draws import NO_VERTICES, LateDraw
+from softshadow.context.joined_pairs import LateVertices, Told
+from softshadow.context.late_draws import NO_VERTICES, LateDraw, LateForm
 from softshadow.framebuffer import DEFAULT
-from softshadow.gl.constant_attributes import carried_of, kept_constants
+from softshadow.gl.constant_attributes import Carried, carried_of, kept_constants
 from softshadow.gl.vertex_format import vertices_of
 from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.mesa.driver_draws import offset_depends_on_mode
+from softshadow.pipeline.geometry.separate import SEPARABLE
+from softshadow.pipeline.mesa.driver_draws import SEPARATE, offset_depends_on_mode
 
 FEW = 64  # vertices of a pair whose numbers wait; arrays for more cost little in comparison
-
-
-class PairNumbers:
-    """The vertices of pairs that are not drawn yet.
-
-    Which attributes they carry, and the current values of the others, stay as they are until then: a change of these
-    draws what is collected first.
-    """
-
-    __slots__ = ("_context", "primitive")
-
-    def __init__(self, context: Context, primitive: Primitive) -> None:
-        self._context, self.primitive = context, primitive
-
-    def vertices(self) -> Vertices:
-        """Return the vertices of all pairs."""
-        return vertices_of(self._context, self.primitive)
 
 
 def can_be_joined(context: Context) -> bool:
@@ -42,6 +30,11 @@ def can_be_joined(context: Context) -> bool:
     Feedback, selection and origins tell them apart.
     """
     return context.origin is None and context.render_mode.mode == gl.GL_RENDER
+
+
+def is_collected(context: Context, mode: int) -> bool:
+    """Return whether a pair of a mode is collected, to be drawn together with pairs that follow."""
+    return mode in SEPARATE or (mode in SEPARABLE and can_be_joined(context))
 
 
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
@@ -61,43 +54,69 @@ def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
 
 def _late_draw(context: Context, mode: int, primitive: Primitive) -> LateDraw | None:
     """Return the draw of a pair whose arrays can be made later; None if they must be made now."""
-    current, carried = context.current, carried_of(tuple(context.vertex_buffer.sizes))
-    if primitive.arrays or primitive.materials or carried.optional or not current.is_plain:
+    if primitive.arrays or primitive.materials:
         return None
-    like = _like(context, mode)
-    if like is None:
+    form = form_of(context, mode, context.vertex_buffer.sizes)
+    if form is None:
         return None
-    for name in carried.columns:
+    for name in form.columns:
         if name not in primitive.changes:  # then all its vertices have the same value
             primitive.changes[name] = [(0, context.attribute(name))]
-    return LateDraw(
-        like,
-        PairNumbers(context, primitive),
-        carried.columns,
-        current.color,
-        current.normal,
-        kept_constants(context).find_texcoords(context, carried.units),
-        *context.modelview_stack.drawn(),
-    )
+    return LateDraw(form, primitive, context.current.color, context.current.normal, *context.modelview_stack.drawn())
 
 
-def _like(context: Context, mode: int) -> Draw | None:
-    """Return a draw under the current state for `LateDraw`; None where draws are not late.
+def form_of(context: Context, mode: int, carried: Iterable[str]) -> LateForm | None:
+    """Return what draws of pairs under the current state have in common; None where draws are not late.
 
-    They are not where they may fail, where someone is told about them, or where they depend on what a later call may
-    change.
+    They are not where they may fail, where someone is told about them, where they depend on what a later call may
+    change, or where their vertices have attributes that not all `Vertices` have. `carried` are those they carry.
     """
-    state = context.drawn_state
-    if context.labels or context.origin is not None or context.gate is not None or not context.has_followed(state):
+    state, current, late = context.drawn_state, context.current, context.late
+    if context.labels or context.origin is not None or context.gate is not None:
         return None
-    late, projection, matrices = context.late, context.projection_stack.current, context.texture_matrices()
-    like = late.likes.get((mode, id(state)))  # which keeps its state
-    if like is None or like.projection is not projection or like.texture_matrices is not matrices:
+    key = mode, id(state), *carried
+    form = late.forms.get(key)
+    like = None
+    if form is not None:
+        if form.follows and not context.has_followed(state):
+            return None
+        like, projection = form.like, context.projection_stack.current
+        if like.projection is not projection or like.texture_matrices is not context.texture_matrices():
+            like = None
+        elif not current.is_plain:
+            return None
+        elif all(map(is_, form.current, _texcoords(current.texcoords, form))):
+            return form
+    form = _new_form(context, mode, carried_of(key[2:]), like)
+    if form is not None:
+        late.keep_form(key, form)
+    return form
+
+
+def _texcoords(current: Sequence[tuple[float, ...]], form: LateForm) -> Sequence[tuple[float, ...]]:
+    """Return the current texture coordinates, but for those that the vertices carry."""
+    if not form.units:
+        return current
+    compared = list(current)
+    for unit in form.units:
+        compared[unit] = form.current[unit]
+    return compared
+
+
+def _new_form(context: Context, mode: int, carried: Carried, like: Draw | None) -> LateForm | None:
+    """Return a form; `like` is that of an earlier one, under the same state and matrices."""
+    state, current = context.drawn_state, context.current
+    if carried.optional or not current.is_plain or not context.has_followed(state):
+        return None
+    if like is None:
         if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
             return None
         like = context.draw_command(mode, NO_VERTICES)
-        late.keep_like(like)
-    return like
+    texcoords = kept_constants(context).find_texcoords(context, carried.units)
+    units, follows = tuple([unit for unit, _ in carried.units]), state.lighting.color_material
+    return LateForm(
+        like, carried.columns, texcoords, tuple(current.texcoords), units, follows, partial(vertices_of, context)
+    )
 
 
 def resume(context: Context, mode: int) -> bool:
@@ -136,7 +155,7 @@ def _let_wait(context: Context, paused: Primitive) -> bool:
     for name in carried.columns:
         if name not in paused.changes:  # then all its vertices have the same value
             paused.changes[name] = [(0, tuple(rows[name][0].tolist()))]
-    joined.replace_last(PairNumbers(context, paused))
+    joined.replace_last(LateVertices(paused, partial(vertices_of, context)))
     return True
 
 

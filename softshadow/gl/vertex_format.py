@@ -40,21 +40,26 @@ class Cut(NamedTuple):
     copied: tuple[int, ...]
 
 
-def begin(context: Context, mode: int) -> None:
-    """Begin a primitive. Attributes set before its first vertex are constant for all its vertices."""
-    buffer = context.vertex_buffer
-    sizes = buffer.sizes
+def forget_outside(context: Context) -> None:
+    """Let vertices carry no attribute because a call before glBegin has set it, if none are collected."""
+    sizes = context.vertex_buffer.sizes
     if "position" not in sizes:
         sizes.clear()
         if context.pending.names:
             context.reset_attributes()
-    context.ready = False
+
+
+def begin(context: Context, mode: int) -> None:
+    """Begin a primitive. Attributes set before its first vertex are constant for all its vertices."""
+    forget_outside(context)
+    buffer = context.vertex_buffer
+    sizes, context.ready = buffer.sizes, False
     materials = carried_of(tuple(sizes)).materials if sizes else NO_MATERIALS
     primitive = context.primitive = Primitive(mode, context.list_depth > 0, materials)
     size = sizes.get("position")
     if size and size == buffer.active_sizes["position"] and not (context.list_depth or context.executes_list):
         primitive.position_size = size  # vertices like the last ones do not change the format
-        _set_limit(buffer, primitive)
+        set_limit(buffer, primitive)
 
 
 def carry_attribute(context: Context, name: str, size: int) -> int:
@@ -171,14 +176,16 @@ def store_vertices(context: Context, primitive: Primitive) -> None:
     if primitive.from_list:
         primitive.limit = sys.maxsize
         return
+    if context.deferred is not None and context.deferred.store_first():
+        return
     buffer = context.vertex_buffer
     _count(context, primitive)
-    if _set_limit(buffer, primitive) <= 0:
+    if set_limit(buffer, primitive) <= 0:
         _wrap(context, primitive)
-        _set_limit(buffer, primitive)
+        set_limit(buffer, primitive)
 
 
-def _set_limit(buffer: VertexBuffer, primitive: Primitive) -> int:
+def set_limit(buffer: VertexBuffer, primitive: Primitive) -> int:
     """Set how many numbers the positions may have, by the room in the buffer; return for how many vertices it is."""
     room = buffer.room - 1 - buffer.n_vertices  # one is reserved for the end of a line loop
     primitive.limit = len(primitive.positions) + 4 * room

@@ -7,6 +7,7 @@ import pytest
 
 from softshadow import gl
 from softshadow.context import vertex_buffer
+from softshadow.context.joined_pairs import LateVertices
 from softshadow.gl import list_primitives, pair_numbers
 
 NUMBERS = (0.0, -0.0, 0.25, 1.0, -3.5, 1e30, float("nan"))
@@ -103,7 +104,7 @@ def test_pairs_of_one_format_are_one_part(context):
     for left in range(3):
         quad(left)
     (part,) = context.vertex_buffer.joined_pairs.parts
-    assert isinstance(part[1], pair_numbers.PairNumbers)
+    assert isinstance(part[1], LateVertices)
     assert context.vertex_buffer.joined_pairs.n_vertices == 12
     assert len(context.frame.commands[0].vertices.position) == 12
 
@@ -210,7 +211,7 @@ def test_a_large_pair_makes_its_arrays_at_once(context):
         gl.glVertex2f(0, 0)
     gl.glEnd()
     (part,) = context.vertex_buffer.joined_pairs.parts
-    assert not isinstance(part[1], pair_numbers.PairNumbers)
+    assert not isinstance(part[1], LateVertices)
 
 
 @pytest.mark.parametrize("mode", [gl.GL_QUADS, gl.GL_POINTS])

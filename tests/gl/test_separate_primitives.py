@@ -9,7 +9,7 @@ import pytest
 from gl.primitives_in_a_row import buffers_and_draws, set_where_order_matters
 from gl.shape_writer import ShapeWriter
 from softshadow import gl
-from softshadow.gl import immediate
+from softshadow.gl import pair_numbers
 from softshadow.inspection.validate_recording import validate_frame
 from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.commands import Draw
@@ -80,7 +80,7 @@ def drawn(seed: int) -> tuple[list[bytes], list[Draw]]:
 def test_joined_primitives_have_the_pixels_of_single_ones(seeds: range, monkeypatch: pytest.MonkeyPatch) -> None:
     joined = {seed: drawn(seed) for seed in seeds}
     assert any(draw.pairs_mode for _, draws in joined.values() for draw in draws)
-    monkeypatch.setattr(immediate, "SEPARABLE", {})
+    monkeypatch.setattr(pair_numbers, "SEPARABLE", {})
     for seed in seeds:
         buffers, draws = drawn(seed)
         assert not any(draw.pairs_mode for draw in draws)
@@ -107,7 +107,7 @@ def outlined_polygons(mode: int) -> bytes:
 def test_joined_polygons_have_no_diagonals(mode: int, short_cuts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     with use_short_cuts(short_cuts):
         joined = outlined_polygons(mode)
-        monkeypatch.setattr(immediate, "SEPARABLE", {})
+        monkeypatch.setattr(pair_numbers, "SEPARABLE", {})
         assert outlined_polygons(mode) == joined
 
 

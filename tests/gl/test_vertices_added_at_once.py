@@ -10,7 +10,7 @@ import pytest
 from gl.shape_writer import ShapeWriter, call_by_call
 from softshadow import gl
 from softshadow.context import vertex_buffer
-from softshadow.gl import evaluators, immediate
+from softshadow.gl import evaluators, pair_numbers
 from softshadow.gl.shape_calls import Calls
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, lines_or_points_of
@@ -24,7 +24,7 @@ ROUNDS = 60
 @pytest.fixture(autouse=True)
 def _pairs_are_drawn_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """Strips that come from calls are draws of their own; those added at once become one draw."""
-    monkeypatch.setattr(immediate, "SEPARABLE", {})
+    monkeypatch.setattr(pair_numbers, "SEPARABLE", {})
 
 
 def corners_of(command: Draw) -> np.ndarray:
