@@ -8,21 +8,20 @@ long as its calls. So such draws wait with their numbers until something else is
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
-from itertools import chain, repeat
-from typing import Any, NamedTuple, Protocol
+from itertools import chain, groupby, repeat
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import Precision
 from softshadow.context.primitive import Primitive
-from softshadow.pipeline.commands import Draw, Vertices
+from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
 MOST_FORMS = 1024  # as many as there are states that are found again
-VERTICES, MODELVIEW, KIND = map(Draw._fields.index, ("vertices", "modelview", "modelview_kind"))
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
 
@@ -69,10 +68,14 @@ class LateDraw(NamedTuple):
 
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
-        fields: list[Any] = list(self.form.like)
-        fields[VERTICES], fields[MODELVIEW], fields[KIND] = vertices, self.modelview, self.modelview_kind
-        made = Draw._make(fields)
-        return separated(made, self.counts) if self.counts else made
+        return _made([(self, vertices)])[0]
+
+
+def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
+    """Return the draws with their arrays; they are like the same one."""
+    moved = [(vertices, None, draw.modelview, draw.modelview_kind) for draw, vertices in alike]
+    made = moved_draws(alike[0][0].form.like, moved)
+    return [separated(each, draw.counts) if draw.counts else each for each, (draw, _) in zip(made, alike, strict=True)]
 
 
 class LateDraws:
@@ -118,15 +121,9 @@ class LateDraws:
             forms.setdefault(key, []).append(draw)
         memory: list[np.ndarray] = []
         vertices = {key: iter(self._vertices(same, memory)) for key, same in forms.items()}
-        lists: list[list[Draw]] = []
-        like = columns = None
-        for key, draw in zip(keys, draws, strict=True):
-            form = draw.form
-            if form.like is not like or form.columns != columns:
-                like, columns = form.like, form.columns
-                lists.append([])
-            lists[-1].append(draw.made(next(vertices[key])))
-        return lists, memory
+        with_vertices = zip(draws, [next(vertices[key]) for key in keys], strict=True)
+        alike = groupby(with_vertices, lambda each: (id(each[0].form.like), each[0].form.columns))
+        return [_made(list(same)) for _, same in alike], memory
 
     def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
         """Return the vertices of draws with as many vertices and the same attributes; add their memory."""

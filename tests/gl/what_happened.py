@@ -1,11 +1,13 @@
 """What a random program did, call by call: its state and its commands, to be compared with that of another one."""
 
+from collections.abc import Container
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from softshadow import gl
+from softshadow.context import Primitive
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.programs.reflectances import followed
 from softshadow.state import BLACK, State
@@ -54,16 +56,23 @@ def without_followed_colors(state: State) -> State:
     return replace(state, lighting=replace(lighting, front=sides["front"], back=sides["back"]))
 
 
-def what_happened(calls: list[Call], precision: str) -> list[Any]:
-    """The commands of a program, and the state after each call."""
+def not_counted(primitive: Primitive | None) -> int:
+    """The number of vertices of an open primitive that the buffer has not counted yet: it does so when it must."""
+    return 0 if primitive is None or primitive.from_list else len(primitive) - primitive.counted
+
+
+def what_happened(calls: list[Call], precision: str, looks_after: Container[int] | None = None) -> list[Any]:
+    """The commands of a program, and the state after each call, or only after those with certain numbers."""
     seen: list[Any] = []
     with gl.create_context(*SIZE, precision=precision) as context:
-        for name, arguments in calls:
+        for number, (name, arguments) in enumerate(calls):
             try:
-                getattr(gl, name)(*arguments)
-                seen.append((name, None))
+                answer = getattr(gl, name)(*arguments)
+                seen.append((name, None if answer is None else bits(np.asarray(answer))))
             except Exception as error:
                 seen.append((name, type(error).__name__, str(error)))
+            if looks_after is not None and number not in looks_after:
+                continue
             buffer, pending = context.vertex_buffer, context.pending
             seen.append(
                 bits(
@@ -79,7 +88,7 @@ def what_happened(calls: list[Call], precision: str) -> list[Any]:
                         pending.reset_due,
                         sorted(buffer.sizes.items()),
                         sorted(buffer.active_sizes.items()),
-                        buffer.n_vertices,
+                        buffer.n_vertices + not_counted(context.primitive),
                         buffer.used_bytes,
                         buffer.pairs,
                         buffer.driver_draw,
