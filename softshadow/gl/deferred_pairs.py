@@ -107,10 +107,7 @@ class DeferredPair:
         one_triangle = mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
         if is_plain and not one_triangle and is_collected(context, mode):
             if context.groups["lighting"].fields["color_material"]:
-                self._note_attributes()
-                context.pending = self._pending
-                follow_color(context)
-                context.pending = self._pending_stand_in
+                self._let_materials_follow()
             form = form_of(context, mode, self._format.carried)
             if context.deferred is not self:
                 return False  # the state has been read, which settles the pair
@@ -169,6 +166,16 @@ class DeferredPair:
     def _restore(self) -> None:
         context = self._context
         context.vertex_buffer, context.pending, context.deferred = self._buffer, self._pending, None
+
+    def _let_materials_follow(self) -> None:
+        context = self._context
+        if "color" in self._format.sizes:
+            self._note_attributes()
+            context.pending = self._pending
+            follow_color(context)
+            context.pending = self._pending_stand_in
+        else:  # then they follow it already, and `follow_color` does no more
+            self._pending.settled = None
 
     def _note_attributes(self) -> None:
         """Note that the calls have set the attributes."""

@@ -216,13 +216,13 @@ def glRectf(x1: float, y1: float, x2: float, y2: float) -> None:
     if context is None or not can_draw(context, "glRectf"):
         return
     hypot(x1, y1, x2, y2)  # the quickest question whether these are numbers
-    if not resume(context, gl.GL_QUADS):
+    if not (resume(context, gl.GL_QUADS) or defer(context, gl.GL_QUADS)):
         begin(context, gl.GL_QUADS)
     primitive = context.primitive
     assert primitive is not None
     rest: tuple[float, ...] = x1, y1, 0.0, 1.0, x2, y1, 0.0, 1.0, x2, y2, 0.0, 1.0, x1, y2, 0.0, 1.0
-    if primitive.position_size != 2:
-        add_vertex(context, x1, y1)
+    if primitive.position_size != 2 or primitive.limit <= len(primitive.positions) + len(rest):
+        glVertex2f(x1, y1)  # it may decide for how many more there is room
         rest = rest[4:]
     if primitive.position_size == 2 and primitive.limit > len(primitive.positions) + len(rest):
         primitive.positions += rest

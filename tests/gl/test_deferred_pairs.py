@@ -127,13 +127,17 @@ class Author:
         for _ in range(3):
             mode, vertex = self.one_of(MODES), self.one_of(VERTICES)
             names = [name for name in ATTRIBUTES if self.chance(0.25)]
+            are_rectangles = self.chance(0.15)
             outside = [name for name in ("glColor3f", "glNormal3f", "glTexCoord2f") if self.chance(0.2)]
             for _ in range(10):
                 calls += self.change()
                 calls += [self.attribute(name) for name in outside if self.chance(0.9)]
                 count = int(self.rng.choice([0, 1, 2, 3, 4, 4, 4, 5, 8]))
                 own = [name for name in names if self.chance(0.97)]
-                calls += self.pair(mode if self.chance(0.9) else self.one_of(MODES), own, vertex, count)
+                if are_rectangles and self.chance(0.9):
+                    calls.append(("glRectf", tuple(self.numbers(4))))
+                else:
+                    calls += self.pair(mode if self.chance(0.9) else self.one_of(MODES), own, vertex, count)
         return calls
 
 
