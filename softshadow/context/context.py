@@ -112,7 +112,7 @@ class Context(CurrentValues, Precision):
         self.late = LateDraws(self)
         self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self.add_late, self.objects)
         self.deferred = None
-        self.deferred_before: Any = None  # the same object, while there is none
+        self.deferred_before: Any = None  # what `deferred` was before, to be used again
         self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
