@@ -303,15 +303,20 @@ def test_a_function_within_a_kernel_is_compiled_with_it(run: Any) -> None:
     assert run("print(with_a_function(4))") == "8"
 
 
-def test_operators_have_numbas_types() -> None:
+def test_operators_and_functions_of_python_have_numbas_types() -> None:
     numbas = cpu_target.typing_context
     ours = typing_for_kernels(numbas)
     ours.refresh()
-    for func in (operator.add, operator.lt, operator.truediv):
+    functions = [operator.add, operator.lt, operator.truediv, *map(numbas.resolve_value_type, (operator.sub, min, max))]
+    for func in functions:
         for each in ((types.int32, types.uint64), (types.float32, types.int64), (types.float32, types.float64)):
             expected = numbas.resolve_function_type(func, each, {})
             # looked for, and then known
             assert expected == ours.resolve_function_type(func, each, {}) == ours.resolve_function_type(func, each, {})
+    for cls in (bool, int):
+        of_class = numbas.resolve_value_type(cls)
+        expected = numbas.resolve_function_type(of_class, (types.float32,), {})
+        assert expected == ours.resolve_function_type(of_class, (types.float32,), {})
     assert ours is typing_for_kernels(numbas)
 
 

@@ -11,6 +11,7 @@ from types import BuiltinFunctionType, CodeType
 from typing import Any, ClassVar
 
 from llvmlite import binding as llvm
+from numba import types
 from numba.core import dispatcher
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags, compile_extra
@@ -23,7 +24,7 @@ PART = "part"  # kind of a stored library
 ONLY_FOR_PARTS = {"no_compile": False, "no_cpython_wrapper": False}
 FLAGS_HASH = hash(Flags())
 MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
-OPERATORS = "_operator"  # the module of their functions
+PYTHON = ("_operator", "builtins")  # modules of operators, and of min, max, bool, range ...
 SLOWED_DOWN = {"skylake-avx512", "cascadelake", "cooperlake", "cannonlake"}  # LLVM's names of processors
 # of a function, cut where attributes may stand
 DEFINITION = re.compile(r"^(define [^\n]*\)(?: (?:local_)?unnamed_addr)?)([^\n)]*\{)$", re.MULTILINE)
@@ -64,13 +65,16 @@ class KernelPasses(CompilerBase):
 
 
 class KernelTyping(TypingContext):
-    """Numba's typing, which remembers the types of operators: looking for them took a tenth of the compile time."""
+    """Numba's typing, which remembers the types of operators and of Python's own functions.
+
+    Looking for them anew in each kernel took a sixth of the compile time.
+    """
 
     found: ClassVar[dict[Any, Any]] = {}
 
     def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:
         """Return the signature of a call."""
-        if kws or type(func) is not BuiltinFunctionType or func.__module__ != OPERATORS:
+        if kws or not is_python_function(func):
             return super().resolve_function_type(func, args, kws)
         call = func, tuple(args)
         signature = self.found.get(call)
@@ -79,6 +83,12 @@ class KernelTyping(TypingContext):
             if signature is not None:
                 self.found[call] = signature
         return signature
+
+
+def is_python_function(func: Any) -> bool:
+    """Return whether this, or what it is Numba's type of, is an operator or a function or class of Python itself."""
+    key = func.typing_key if type(func) is types.Function else func
+    return getattr(key, "__module__", None) in PYTHON and isinstance(key, BuiltinFunctionType | type)
 
 
 @cache
