@@ -141,7 +141,13 @@ class Author:
         return calls
 
 
-@pytest.mark.parametrize("seeds", [range(start, start + 20) for start in range(0, 200, 20)], ids=str)
+SEEDS = [
+    pytest.param(range(start, start + 20), id=str(start), marks=[] if start < 100 else [pytest.mark.slow])
+    for start in range(0, 1000, 20)
+]
+
+
+@pytest.mark.parametrize("seeds", SEEDS)
 def test_deferred_pairs_do_what_others_do(seeds: range, monkeypatch: pytest.MonkeyPatch) -> None:
     for seed in seeds:
         author = Author(seed)
