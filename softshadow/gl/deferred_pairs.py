@@ -19,7 +19,7 @@ from softshadow.context.late_draws import LateDraw
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.vertex_buffer import NO_FORMAT
 from softshadow.gl.materials import follow_color
-from softshadow.gl.pair_numbers import FEW, form_of, is_collected
+from softshadow.gl.pair_numbers import FEW, counted_mode, form_of, is_collected
 from softshadow.gl.vertex_format import (
     NO_MATERIALS,
     add_vertex,
@@ -104,8 +104,8 @@ class DeferredPair:
         context, primitive = self._context, self._primitive
         mode, count = primitive.mode, len(primitive.positions) // 4
         is_plain = self._has_vertex and not (primitive.arrays or primitive.materials)
-        one_triangle = mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
-        if is_plain and not one_triangle and is_collected(context, mode):
+        becomes_triangles = mode != gl.GL_TRIANGLES == counted_mode(mode, count)
+        if is_plain and not becomes_triangles and is_collected(context, mode):
             if context.groups["lighting"].fields["color_material"]:
                 self._let_materials_follow()
             form = form_of(context, mode, self._format.carried)
@@ -160,8 +160,7 @@ class DeferredPair:
             self._pending.reset_due = self._pending.has_vertices = True
             buffer.begin_joined_pairs(self._draw, primitive.counted)
             buffer.paused = primitive
-            one_line = primitive.mode == gl.GL_LINE_STRIP and primitive.counted == 2
-            buffer.end_pair(gl.GL_LINES if one_line else primitive.mode, primitive.counted)
+            buffer.end_pair(counted_mode(primitive.mode, primitive.counted), primitive.counted)
 
     def _restore(self) -> None:
         context = self._context

@@ -16,7 +16,7 @@ from softshadow.gl.deferred_pairs import defer
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.materials import follow_color
-from softshadow.gl.pair_numbers import add_resumed, collect_pair, is_collected, resume
+from softshadow.gl.pair_numbers import add_resumed, collect_pair, counted_mode, is_collected, resume
 from softshadow.gl.refusals import CONVERTING, refusal
 from softshadow.gl.vertex_format import add_vertex, begin, end, store_vertices, vertices_of
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
@@ -80,16 +80,15 @@ def glEnd() -> None:
     if primitive.from_list and context.list_depth > 0:
         context.draw(primitive.mode, vertices_of(context, primitive), consecutive_indices(count))
         return
-    one_triangle = primitive.mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN) and count == 3
-    mode = gl.GL_TRIANGLES if one_triangle else primitive.mode  # as in Mesa (vbo_try_prim_conversion)
+    counted = counted_mode(primitive.mode, count)
+    mode = counted if counted == gl.GL_TRIANGLES else primitive.mode
     if not (primitive.start and add_resumed(context, mode, primitive, count)):
         # a primitive with arrays is drawn again with the same ones
         if is_collected(context, mode) and not (primitive.arrays and mode not in SEPARATE):
             collect_pair(context, mode, primitive)
         else:
             context.draw_primitive(mode, vertices_of(context, primitive))
-    one_line = mode == gl.GL_LINE_STRIP and count == 2
-    context.vertex_buffer.end_pair(gl.GL_LINES if one_line else mode, count)
+    context.vertex_buffer.end_pair(counted, count)
 
 
 def consecutive_indices(count: int) -> np.ndarray:

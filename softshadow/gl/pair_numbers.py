@@ -32,6 +32,13 @@ def can_be_joined(context: Context) -> bool:
     return context.origin is None and context.render_mode.mode == gl.GL_RENDER
 
 
+def counted_mode(mode: int, count: int) -> int:
+    """Return the mode as which Mesa counts a pair of so many vertices (vbo_try_prim_conversion)."""
+    if count == 3 and mode in (gl.GL_TRIANGLE_STRIP, gl.GL_TRIANGLE_FAN):
+        return gl.GL_TRIANGLES
+    return gl.GL_LINES if count == 2 and mode == gl.GL_LINE_STRIP else mode
+
+
 def is_collected(context: Context, mode: int) -> bool:
     """Return whether a pair of a mode is collected, to be drawn together with pairs that follow."""
     return mode in SEPARATE or (mode in SEPARABLE and can_be_joined(context))
