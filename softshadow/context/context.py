@@ -416,8 +416,8 @@ class Context(CurrentValues, Precision):
 
     def has_followed(self, state: State) -> bool:
         """Return whether materials that follow the colour, if any do, have followed the current one."""
-        followed = self.state_groups.followed
-        return not state.lighting.color_material or (followed is not None and followed[2] is self.current.color)
+        lighting = state.lighting
+        return not lighting.color_material or self.state_groups.have_followed(self.current.color, lighting)
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""

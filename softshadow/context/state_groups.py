@@ -12,6 +12,7 @@ from operator import is_
 from typing import Any
 
 from softshadow.frozen import evolve
+from softshadow.programs import reflectances
 from softshadow.state import TEXTURE_UNITS, Color, Lighting, LightState, State
 
 # parts of groups that are groups themselves: (group, field)
@@ -226,6 +227,19 @@ class StateGroups:
                 if PACK(*group.fields[field]) != PACK(*rounded):  # -0.0 equals 0.0, but has other bits
                     group.fields[field] = rounded
                     self.changed.add(group)
+
+    def have_followed(self, color: Color, lighting: Lighting) -> bool:
+        """Return whether the materials of the lighting of a draw, of which some follow colours, follow this one."""
+        if self.followed is not None:
+            last = self.followed[2]
+            return last is color or last == color
+        rounded = self._rounded(color)
+        sides = ("front", lighting.front), ("back", lighting.back)
+        return all(
+            getattr(material, field) == rounded
+            for side, material in sides
+            for field in reflectances.followed(lighting, side)
+        )
 
     def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
         """Return an earlier lighting whose materials contain the colour that they followed then."""

@@ -214,17 +214,15 @@ def similar_pairs(context: Context, sizes: Mapping[str, int]) -> SimilarPairs | 
     context : Context
     sizes : dict                   "position", "normal" ...: components that the calls of the vertices set
     """
-    current, pending, buffer = context.current, context.pending, context.vertex_buffer
+    pending, buffer = context.pending, context.vertex_buffer
     if not (_can_be_similar(context) and pending.has_vertices):
         return None
     carried, active = buffer.sizes, buffer.active_sizes
     attributes = carried_of(tuple(carried))
     if attributes.optional or attributes.materials:
         return None
-    if "color" in carried and "color" not in sizes and context.groups["lighting"].fields["color_material"]:
-        followed = context.state_groups.followed
-        if followed is None or followed[2] is not current.color:
-            return None  # vertices that carry a colour may have other materials (`with_kept_materials`)
+    if "color" in carried and "color" not in sizes and not context.has_followed(context.drawn_state):
+        return None  # vertices that carry a colour may have other materials (`with_kept_materials`)
     for name, size in sizes.items():
         if not carried.get(name) == active.get(name) == size:
             return None

@@ -115,7 +115,7 @@ def triangles_with_outputs(
         if state.cull.enabled and not with_stages:
             clipped = clipped.passing_stages(triangles_in_stages(command, codes, planes, assembled.corners))
         if first_provokes(state):
-            clipped = _in_provoking_order(clipped, codes, assembled.corners)
+            clipped = in_provoking_order(clipped, codes, assembled.corners)
     window = with_new_vertices(window, clipped, command, target)
     k = varyings.values.shape[1]
     geometry = Geometry(
@@ -155,7 +155,7 @@ def stipple_places(clipped: Clipped, command: Draw) -> np.ndarray:
     return places_of(clipped.source == 0 if command.mode != gl.GL_LINES else np.ones(len(clipped.source), bool))
 
 
-def _in_provoking_order(clipped: Clipped, codes: np.ndarray, corners: np.ndarray) -> Clipped:
+def in_provoking_order(clipped: Clipped, codes: np.ndarray, corners: np.ndarray) -> Clipped:
     """Return the pieces of triangles (T, 3) in the order of GL_FIRST_VERTEX_CONVENTION."""
     cut = (codes[corners] != 0).any(axis=1)[clipped.source]
     triangles, edges = order_pieces(clipped.triangles, clipped.edges, cut)

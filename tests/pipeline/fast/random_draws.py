@@ -20,6 +20,7 @@ class Program:
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
         self.environment = np.random.default_rng([seed, 1])  # of its own: seeds of examples keep their programs
+        self.corners = np.random.default_rng([seed, 2])  # the same, for what concerns single corners
         self.mode = self.one_of(*MODES)
 
     def draw(self, states: int = 3, draws: int = 5, *, changes_tests: bool = False) -> Context:
@@ -93,6 +94,9 @@ class Program:
         gl.glFogi(gl.GL_FOG_COORD_SRC, int(self.environment.choice((gl.GL_FRAGMENT_DEPTH, gl.GL_FOG_COORD))))
         (gl.glEnable if self.environment.random() < 0.3 else gl.glDisable)(gl.GL_COLOR_SUM)
         gl.glColorMask(*[self.chance(0.9)] * 4)
+        conventions = gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION
+        gl.glProvokingVertex(int(self.corners.choice(conventions, p=(0.3, 0.7))))
+        gl.glEdgeFlag(self.corners.random() < 0.9)
 
     def set_tests(self) -> None:
         """Change a few of the settings that many small draws of ordinary programs change in between."""
@@ -226,13 +230,15 @@ class Program:
             self.mode = self.one_of(*MODES)
         mode, n = self.mode, int(self.rng.integers(0, 14))
         if self.chance(0.3):
-            materials = self.environment.random() < 0.5
+            materials, edges = self.environment.random() < 0.5, self.corners.random() < 0.3
             gl.glBegin(mode)
             for _ in range(n):
                 gl.glTexCoord2f(*self.numbers(2))
                 self.set_secondary()
                 if materials and self.environment.random() < 0.5:
                     self.set_material()
+                if edges:
+                    gl.glEdgeFlag(self.corners.random() < 0.5)
                 gl.glVertex3f(*self.numbers(3))
             gl.glEnd()
             return
@@ -255,6 +261,10 @@ class Program:
             if self.environment.random() < 0.3:
                 gl.glEnableClientState(array)
                 point(gl.GL_FLOAT, 0, self.environment.uniform(-0.5, 1.5, (16, width)).astype(np.float32))
+        gl.glDisableClientState(gl.GL_EDGE_FLAG_ARRAY)
+        if self.corners.random() < 0.2:
+            gl.glEnableClientState(gl.GL_EDGE_FLAG_ARRAY)
+            gl.glEdgeFlagPointer(0, self.corners.random(16) < 0.7)
         if self.chance():
             indices = self.rng.integers(0, 16, n).astype(np.uint32)
             gl.glDrawElements(mode, n, gl.GL_UNSIGNED_INT, indices)

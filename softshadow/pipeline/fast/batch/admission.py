@@ -10,6 +10,7 @@ from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, WIDTH_OF_POLYGONS, width_of
 from softshadow.pipeline.fast.batch.vertices import GENERATED
+from softshadow.pipeline.geometry.draw_primitives import has_no_edges
 from softshadow.pipeline.geometry.vertex import to_clip
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
@@ -48,15 +49,16 @@ def is_filled(polygon: Polygon) -> bool:
 
 
 def is_outlined_alone(command: Draw) -> bool:
-    """Return whether a draw of unfilled or stippled polygons has edge flags, or is large.
+    """Return whether a draw of unfilled or stippled polygons is large, or has edge flags that decide more than edges.
 
-    A large one is looked for on its own, but for joined pairs, whose arrays are new in each frame.
+    A large one is looked for on its own, but for joined pairs, whose arrays are new in each frame. Edge flags decide
+    how quads are cut where all faces of an unfilled mode are culled, and without any edge there are no fragments.
     """
-    vertices = command.vertices
     if is_filled(command.state.polygon):
         return False
-    is_large = len(vertices.position) >= WORTH_COMPARING and not command.pairs_mode
-    return vertices.edges is not None or is_large
+    if len(command.vertices.position) >= WORTH_COMPARING and not command.pairs_mode:
+        return True
+    return command.vertices.edges is not None and (not passes_stages(command.state) or has_no_edges(command))
 
 
 def least_compared(command: Draw) -> int:
@@ -89,7 +91,7 @@ def can_begin_run(command: Draw, target: Framebuffer) -> bool:
     state = command.state
     if not can_run(command) or not target.attachments:
         return False
-    if not _are_covered(command.mode, state) or first_provokes(state):
+    if not _are_covered(command.mode, state):
         return False
     modes = [gen.mode for unit in state.units for gen in unit.gen if gen.enabled]
     return all(mode in GENERATED for mode in modes)
@@ -100,7 +102,7 @@ def _are_covered(mode: int, state: State) -> bool:
     points, lines, polygon = state.points, state.lines, state.polygon
     if width_of(mode) < WIDTH_OF_POLYGONS or not passes_stages(state):
         return True
-    if lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
+    if first_provokes(state) or lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
         return False
     front, back = effective_modes(state)
     if (front, back) == (gl.GL_FILL, gl.GL_FILL):

@@ -115,6 +115,32 @@ def assemble_draws(numbers, indices, codes, triangles, provoking):
 
 
 @kernel
+def let_first_provoke(numbers, counts, codes, triangles, provoking):
+    """Put the provoking vertex of assembled triangles first (GL_FIRST_VERTEX_CONVENTION), and write which it is.
+
+    `counts` (D,) are the numbers of triangles of the draws, whose quads are cut as with this convention. llvmpipe tries
+    a fan of two triangles as a rectangle, and then its last vertex provokes.
+    """
+    row = 0
+    for d in range(numbers.shape[0]):
+        mode, end = numbers[d, MODE], row + counts[d]
+        tries_rectangle = mode == GL_TRIANGLE_FAN and counts[d] == 2 and not numbers[d, ACROSS]
+        for v in range(numbers[d, START], numbers[d, END]):
+            tries_rectangle = tries_rectangle and codes[v] == 0
+        if tries_rectangle:
+            row = end
+            continue
+        for t in range(row, end):
+            a, b, c = triangles[t]
+            if mode in (GL_QUADS, GL_QUAD_STRIP, GL_POLYGON):
+                a, b, c = c, a, b
+            elif mode == GL_TRIANGLE_FAN or (mode == GL_TRIANGLE_STRIP and (t - row) & 1):
+                a, b, c = b, c, a
+            triangles[t, 0], triangles[t, 1], triangles[t, 2], provoking[t] = a, b, c, a
+        row = end
+
+
+@kernel
 def is_quad_of_strip(corners, t):
     """Return whether triangles t and t + 1 of (T, 3) are a quad of a strip (`geometry.assembly`)."""
     return t + 1 < corners.shape[0] and corners[t, 0] == corners[t + 1, 1] and corners[t, 2] == corners[t + 1, 2]

@@ -22,6 +22,7 @@ from softshadow.pipeline.fast.batch.assembly import (
     WIDTH_OF_POLYGONS,
     assemble_draws,
     assemble_lines_and_points,
+    let_first_provoke,
     primitives_of,
     width_of,
 )
@@ -40,6 +41,7 @@ from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
     filled_offset,
     has_float_units,
+    in_provoking_order,
     outlined_geometry,
     points_and_lines_geometry,
 )
@@ -50,6 +52,7 @@ from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, em
 from softshadow.pipeline.geometry.vertex import append_rows
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
 from softshadow.programs.fixed_function import is_replaced
@@ -151,7 +154,9 @@ def geometry_of(
         NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
     )  # fmt: skip
     is_polygons, is_filled = width == WIDTH_OF_POLYGONS, not run.unfilled
-    is_small = is_polygons and is_filled and max(n, most) <= SMALL and not has_float_units(command, target)
+    is_first = first_provokes(run.state)
+    is_small = is_polygons and is_filled and max(n, most) <= SMALL and not is_first
+    is_small = is_small and not has_float_units(command, target)
     if is_small:
         setup = empty_setup(most, REAL)
         n_triangles, n_drawn, area = set_up_run(
@@ -164,12 +169,17 @@ def geometry_of(
         _write_outputs(table, inputs, outputs)
         if is_polygons:
             n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
+            if is_first:
+                counts = np.array([primitives_of(draw) for draw in draws])
+                let_first_provoke(table.numbers, counts, outputs.codes, triangles, provoking)
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if is_polygons:
-        edges = NO_EDGES if is_filled else _drawn_edges(draws)
+        edges = NO_EDGES if is_filled else _drawn_edges(draws, triangles[:n_triangles])
         clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
         if is_filled and setting.culled:
             clipped = clipped.passing_stages(_in_stages(draws, codes, run.user_planes, triangles[:n_triangles]))
+        if is_first:
+            clipped = in_provoking_order(clipped, codes, triangles[:n_triangles])
         if is_small and not recent:
             geometry = unset._replace(source=clipped.source, provoking=provoking[clipped.source])
             geometry = _with_values(geometry, clipped.values, outputs)
@@ -178,7 +188,8 @@ def geometry_of(
         primitives, clip_primitives = _lines_or_points(table, most, width), clip_points if width == 1 else clip_lines
         sizes = sizes_of_points(run, draws) if width == 1 else None
         with_sizes = columns if sizes is None else np.hstack([columns, sizes[:, np.newaxis]])
-        provoking, clipped = primitives[:, -1], clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
+        provoking = primitives[:, 0 if is_first else -1]
+        clipped = clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
     window, of_pieces = outputs.window, provoking[clipped.source]
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         new = np.empty_like(clipped.clip[n:])
@@ -211,8 +222,8 @@ def _batch(geometry: Geometry, fragments: int = -1) -> Batch:
     return Batch(geometry, fragments, geometry.provoking)
 
 
-def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
-    """Return which edges of the assembled triangles (T, 3) of draws without edge flags are drawn."""
+def _drawn_edges(draws: Sequence[Draw], triangles: np.ndarray) -> np.ndarray:
+    """Return which edges of the assembled triangles (T, 3) of all draws are drawn."""
     edges = []
     for (mode, pairs_mode), same in groupby(draws, attrgetter("mode", "pairs_mode")):
         if pairs_mode == gl.GL_POLYGON:
@@ -224,7 +235,12 @@ def _drawn_edges(draws: Sequence[Draw]) -> np.ndarray:
         mode = gl.GL_QUAD_STRIP if pairs_mode == gl.GL_QUAD_STRIP else mode
         # the triangles of other modes have the same edges in a draw of their own
         edges += [edge_flags(mode, count) for count in (counts if mode == gl.GL_POLYGON else [sum(counts)])]
-    return edges[0] if len(edges) == 1 else np.concatenate(edges)
+    drawn = edges[0] if len(edges) == 1 else np.concatenate(edges)
+    if all(draw.vertices.edges is None for draw in draws):
+        return drawn
+    all_vertices = [draw.vertices for draw in draws]
+    flags = [np.ones(len(each.position), bool) if each.edges is None else each.edges for each in all_vertices]
+    return np.ascontiguousarray(drawn & np.concatenate(flags)[triangles].view(np.uint8))
 
 
 def _in_stages(draws: Sequence[Draw], codes: np.ndarray, user_planes: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -33,10 +33,11 @@ from softshadow.pipeline.fast.batch.vertices import (
 )
 from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
+from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
 from softshadow.state import BLACK, Lighting, MaterialState, Viewport
-from softshadow.tokens import GL_QUAD_STRIP
+from softshadow.tokens import GL_QUAD_STRIP, GL_QUADS
 
 BATCH_KERNELS = KernelGroup("batch")
 SIDES = ("front", "back")
@@ -212,6 +213,7 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
     reads_normals, last = run.reads_normals, draws[0].state.lighting
     equal = last  # the latest one with the same rows as `last`
     across = IN_STAGES if run.unfilled else int(run.across)
+    across_by_mode = {GL_QUADS: 1} if first_provokes(run.state) else {}
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
     for draw, view in zip(draws, views.of_draws, strict=True):
@@ -224,7 +226,7 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
                 lightings.append(lights)
             equal = lights
         row = len(lightings) - 1
-        kind, cut = draw.modelview_kind, across or indexed
+        kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
         mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
         table += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view)
         start, index_start = end, index_end
