@@ -26,13 +26,14 @@ from softshadow.gl.raster_draws import (
     EDGES,
     KEPT_VERTICES,
     MOST_VERTICES,
-    attributes_of,
+    colors_of,
     draw_at,
     indices_of,
     normalized,
     packed,
     positions,
     raster_vertices,
+    texcoords_of,
 )
 from softshadow.gl.render_modes import is_rendered
 from softshadow.pipeline.commands import Draw, Vertices
@@ -70,7 +71,7 @@ class PixelQuads:
         """Return the corners of the quads so many pixels from the corner; the same object if a text is drawn again."""
         place, n = (left, bottom, size, real), self.n_vertices
         before = self._placed.get(place)
-        color, texcoords = attributes_of(raster, n, real)
+        color, texcoords = colors_of(raster, n, real), texcoords_of(raster, n, real)
         if before is not None and before.color is color and before.texcoords is texcoords:
             return before
         position = self._positions(left, bottom, size, real) if before is None else before.position
@@ -151,7 +152,8 @@ class Text:
         x = np.concatenate([each.x for each in pixels]) + np.repeat(lefts, counts)
         y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
         position = _near_positions(x, y, self.size, self._real)
-        vertices = raster_vertices(position, *attributes_of(self._raster, len(position), self._real))
+        n, raster, real = len(position), self._raster, self._real
+        vertices = raster_vertices(position, colors_of(raster, n, real), texcoords_of(raster, n, real))
         return self._first._replace(vertices=vertices, indices=indices_of(len(position)))
 
 

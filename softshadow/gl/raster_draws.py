@@ -79,33 +79,59 @@ def _room(n: int) -> int:
     return 1 << (n - 1).bit_length() if KEPT_VERTICES < n <= MOST_VERTICES else n
 
 
-class _LatestAttributes(NamedTuple):
-    """Attributes of a raster position, and arrays of them by the number of vertices."""
+class _LatestTexcoords(NamedTuple):
+    """The texture coordinates of a raster position, and arrays of them.
 
-    color: tuple[float, ...]
+    `arrays` by the number of vertices, `of_quads` by whether the quad is drawn to the window.
+    """
+
     texcoords: tuple[tuple[float, ...], ...]
     real: Any
-    arrays: dict[int, tuple[np.ndarray, tuple[np.ndarray, ...]]]
+    arrays: dict[int, tuple[np.ndarray, ...]]
+    of_quads: dict[bool, tuple[np.ndarray, ...]]
 
 
-_latest_attributes: list[_LatestAttributes] = []  # at most one
+_latest_texcoords: list[_LatestTexcoords] = []  # at most one
 
 
-def attributes_of(raster: RasterPosition, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
-    """Return n equal colours and n equal texture coordinates of each unit; a text has the same ones throughout."""
-    latest = _latest_attributes[:]
-    if not latest or not (
-        latest[0].color is raster.color and latest[0].texcoords is raster.texcoords and latest[0].real is real
-    ):
-        latest = [_LatestAttributes(raster.color, raster.texcoords, real, {})]
-        _latest_attributes[:] = latest
-    arrays = latest[0].arrays.get(n)
+def colors_of(raster: RasterPosition, n: int, real: Any) -> np.ndarray:
+    """Return n equal colours: an array, since Mesa interpolates them."""
+    return _equal_rows(raster.color, n, real)
+
+
+def texcoords_of(raster: RasterPosition, n: int, real: Any) -> tuple[np.ndarray, ...]:
+    """Return n equal texture coordinates of each unit, as arrays; a text has the same ones throughout."""
+    latest = _latest_of(raster, real)
+    arrays = latest.arrays.get(n)
     if arrays is None:
-        color, texcoords = _for(n, _attributes)(packed(raster.color, *raster.texcoords), _room(n), real)
-        arrays = color[:n], tuple([rows[:n] for rows in texcoords])
+        arrays = tuple([_equal_rows(value, n, real) for value in raster.texcoords])
         if n <= KEPT_VERTICES:
-            latest[0].arrays[n] = arrays
+            latest.arrays[n] = arrays
     return arrays
+
+
+def texcoords_of_quad(raster: RasterPosition, in_window: bool, real: Any) -> tuple[np.ndarray, ...]:
+    """Return the texture coordinates of a quad that shows the whole texture of unit 0; rows are those of Mesa's quad.
+
+    Its rectangles share the arrays, as long as the raster position keeps its texture coordinates.
+    """
+    latest = _latest_of(raster, real)
+    arrays = latest.of_quads.get(in_window)
+    if arrays is None:
+        first, *others = texcoords_of(raster, 4, real)
+        first = first.copy()
+        first[:, :2] = CORNERS if in_window else CORNERS_FROM_TOP
+        first.flags.writeable = False
+        arrays = latest.of_quads[in_window] = first, *others
+    return arrays
+
+
+def _latest_of(raster: RasterPosition, real: Any) -> _LatestTexcoords:
+    latest = _latest_texcoords[:]
+    if not latest or latest[0].texcoords is not raster.texcoords or latest[0].real is not real:
+        latest = [_LatestTexcoords(raster.texcoords, real, {}, {})]
+        _latest_texcoords[:] = latest
+    return latest[0]
 
 
 def packed(*values: Sequence[float]) -> bytes:
@@ -113,13 +139,14 @@ def packed(*values: Sequence[float]) -> bytes:
     return b"".join([struct.pack(f"{len(value)}d", *value) for value in values])
 
 
-@lru_cache(64)
-def _attributes(numbers: bytes, n: int, real: Any) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
-    """Return n equal colours and n equal texture coordinates of each unit; arrays, since Mesa interpolates them."""
-    values = np.frombuffer(numbers).reshape(-1, 4)
-    arrays = {row.tobytes(): _repeated(row, n, real) for row in values}
-    color, *texcoords = (arrays[row.tobytes()] for row in values)
-    return color, tuple(texcoords)
+def _equal_rows(value: Sequence[float], n: int, real: Any) -> np.ndarray:
+    rows: np.ndarray = _for(n, _kept_rows)(packed(value), _room(n), real)
+    return rows if len(rows) == n else rows[:n]
+
+
+@lru_cache(256)
+def _kept_rows(numbers: bytes, n: int, real: Any) -> np.ndarray:
+    return _repeated(np.frombuffer(numbers), n, real)
 
 
 @lru_cache(256)

@@ -11,12 +11,11 @@ from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
 from softshadow.frozen import evolve, remembered
 from softshadow.gl.raster_draws import (
-    CORNERS,
-    CORNERS_FROM_TOP,
-    attributes_of,
+    colors_of,
     draw_at,
     positions,
     raster_vertices,
+    texcoords_of_quad,
 )
 from softshadow.image import FORMATS, Format
 from softshadow.pipeline.commands import CopyToTexture, CreateTexture, DefineImage, Draw, SetSampler, UpdateImage
@@ -119,16 +118,13 @@ def _textured(state: State, first: TextureUnit, upper_edges: bool) -> State:
 
 
 def _draw_of_quad(context: Context, quad: np.ndarray, state: State) -> Draw:
-    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0; rows are those of Mesa's quad."""
+    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0."""
     real = cast(Any, context.real)
     size = context.objects.framebuffers[state.draw_framebuffer].size
     in_window = state.draw_framebuffer == DEFAULT
     position = positions(quad, size, real)
     if not in_window:
         position[:, 1] = -position[:, 1]
-    color, texcoords = attributes_of(context.current.raster, 4, real)
-    of_quad = texcoords[0].copy()
-    of_quad[:, :2] = CORNERS if in_window else CORNERS_FROM_TOP
-    of_quad.flags.writeable = False
-    vertices = raster_vertices(position, color, (of_quad, *texcoords[1:]))
+    raster = context.current.raster
+    vertices = raster_vertices(position, colors_of(raster, 4, real), texcoords_of_quad(raster, in_window, real))
     return draw_at(context, state, size, vertices, clamps=state.depth.clamp)

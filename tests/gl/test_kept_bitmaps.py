@@ -10,7 +10,7 @@ from softshadow import gl
 from softshadow.gl import bitmaps, raster_draws
 from softshadow.pipeline.commands import Draw
 
-KEPT = (bitmaps._kept_pixels, raster_draws._attributes, raster_draws._normals, raster_draws._indices)
+KEPT = (bitmaps._kept_pixels, raster_draws._kept_rows, raster_draws._normals, raster_draws._indices)
 
 
 @pytest.mark.parametrize(("side", "keeps"), [(8, True), (192, False)])
