@@ -234,12 +234,11 @@ class StateGroups:
             last = self.followed[2]
             return last is color or last == color
         rounded = self._rounded(color)
-        sides = ("front", lighting.front), ("back", lighting.back)
-        return all(
-            getattr(material, field) == rounded
-            for side, material in sides
-            for field in reflectances.followed(lighting, side)
-        )
+        for side, material in (("front", lighting.front), ("back", lighting.back)):
+            for field in reflectances.followed(lighting, side):
+                if getattr(material, field) != rounded:
+                    return False
+        return True
 
     def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
         """Return an earlier lighting whose materials contain the colour that they followed then."""

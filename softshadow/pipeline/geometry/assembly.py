@@ -158,6 +158,18 @@ def begins_stipple(mode: int, n_triangles: int) -> np.ndarray:
     return begins
 
 
+def pieces_begin_stipple(
+    begins: np.ndarray, needs_clipping: np.ndarray, corners: np.ndarray, source: np.ndarray
+) -> np.ndarray:
+    """Return which pieces of clipped triangles begin the line stipple anew, (T',) bool.
+
+    `begins` (T,) of the assembled triangles, with their `corners` (T, 3); `needs_clipping` (V,) bool, of the vertices;
+    `source` (T',): the triangle that each piece comes from. Mesa lets the first piece of a triangle that is cut begin.
+    """
+    cut = needs_clipping[corners].any(axis=1)[source]
+    return np.where(cut, np.diff(source, prepend=-1) != 0, begins[source])
+
+
 def _quads(
     mode: int, n_vertices: int, in_clipped_segment: np.ndarray | None, across: bool, first_provokes: bool
 ) -> np.ndarray:

@@ -11,7 +11,7 @@ from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import begins_stipple
+from softshadow.pipeline.geometry.assembly import begins_stipple, pieces_begin_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import (
     drawn_edges,
@@ -136,9 +136,8 @@ def triangles_with_outputs(
         return filled_geometry(geometry, clipped, command, target, cull)
     begins = None
     if is_stippled(state.lines):
-        cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
-        first = begins_stipple(command.mode, len(provoking))[clipped.source]
-        begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, first)
+        first = begins_stipple(command.mode, len(provoking))
+        begins = pieces_begin_stipple(first, codes != 0, assembled.corners, clipped.source)
     return outlined_geometry(geometry, clipped, command, target, cull, begins, vertex_sizes)
 
 
@@ -249,18 +248,19 @@ def outlined_geometry(
     cull: Cull,
     begins: np.ndarray | None = None,
     sizes: np.ndarray | None = None,
+    places: np.ndarray | None = None,
 ) -> Geometry:
     """Return the geometry of polygons that pass Mesa's stages; it has vertices of its own.
 
     `begins` (T',): the pieces at which the line stipple begins anew, None where lines are solid; `sizes` (V',): of
-    points, or None.
+    points, or None; `places` (T',): of several draws in the line stipple, see `polygon_mode.outline`.
     """
     state, flipped = command.state, target.flipped
     begins = np.ones(len(clipped.source), bool) if begins is None else begins
     outlined = outline(
         geometry.window, geometry.values, geometry.back, geometry.flat, clipped.triangles, clipped.edges,
         geometry.provoking, state, cull, target.depth, command.offset_slope, command.offset_unit, flipped,
-        begins, command.offset_mode, has_no_edges(command),
+        begins, command.offset_mode, has_no_edges(command), places,
     )  # fmt: skip
     no_offset = offset_of(
         Polygon(), target.depth, outlined.window.dtype.type, command.offset_slope, command.offset_unit, flipped

@@ -14,7 +14,7 @@ from softshadow.image import Image
 from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import ZERO
 from softshadow.pipeline.geometry.facing import CULL_BACK, CULL_FRONT, culling
-from softshadow.pipeline.geometry.line_stipple import places_of
+from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.triangle_setup import Offset, add_float_units, offset_of
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on
@@ -58,6 +58,7 @@ def outline(
     begins: np.ndarray,
     offset_mode: int = 0,
     no_edges: bool = False,
+    places: np.ndarray | None = None,
 ) -> Outlined:
     """Return the triangles, lines and points that the polygon modes make of triangles in the window.
 
@@ -72,6 +73,9 @@ def outline(
     begins : (T,) bool, triangles at which the line stipple begins anew
     offset_mode : the polygon mode whose offset is added; 0: that of the first triangle that is not culled
     no_edges : whether no vertex begins an edge; then Mesa culls the triangles that are not filled
+    places : (T,) int32, optional
+        Of the triangles of several draws: at the first one of each the place in the line stipple before the draw, at
+        the others CONTINUES.
     """
     n, columns = len(triangles), values.shape[1]
     corners, corner_values = scratch((n, 3, 4), window.dtype), scratch((3 * n, columns), values.dtype)
@@ -89,13 +93,14 @@ def outline(
         offset = _mode_offset(polygon, offset_mode or gl.GL_FILL)
         corners[:, :, 2] = _offset_depth(corners, det, offset, depth, slope, unit, flipped)
     filled, points = np.empty((n, 3), np.int32), np.empty(3 * n, np.int32)
-    lines, begins_line = np.empty((3 * n, 2), np.int32), np.empty(3 * n, bool)
+    lines, line_places = np.empty((3 * n, 2), np.int32), np.empty(3 * n, np.int32)
+    places = np.full(n, CONTINUES, np.int32) if places is None else places
     n_filled, n_lines, n_points, ends_stipple = list_primitives(
-        front, mode, culling(cull)[0], no_edges, edges, begins, filled, lines, begins_line, points
+        front, mode, culling(cull)[0], no_edges, edges, begins, places, filled, lines, line_places, points
     )
     return Outlined(
         corners.reshape(-1, 4), corner_values, filled[:n_filled], lines[:n_lines], points[:n_points], front,
-        offset_mode, places_of(begins_line[:n_lines]), ends_stipple,
+        offset_mode, line_places[:n_lines], ends_stipple,
     )  # fmt: skip
 
 
@@ -140,15 +145,17 @@ def first_drawn(front, mode, culled, no_edges):
 
 
 @kernel
-def list_primitives(front, mode, culled, no_edges, edges, begins, filled, lines, begins_line, points):
+def list_primitives(front, mode, culled, no_edges, edges, begins, places, filled, lines, line_places, points):
     """List the triangles (A, 3), lines (B, 2) and points (C,) to draw; return A, B, C, and `Outlined.ends_stipple`.
 
-    `begins_line` (B,): lines at which the line stipple begins anew. A filled triangle begins it, and so does one with
-    drawn points; one drawn as lines where `begins` says so.
+    `line_places` (B,): those of the lines in the line stipple. A filled triangle begins it anew, and so does one with
+    drawn points; one drawn as lines where `begins` says so. `places`: see `outline`.
     """
     n_filled = n_lines = n_points = 0
-    begins_next = False
+    begins_next, place_next = False, CONTINUES
     for t in range(front.shape[0]):
+        if places[t] != CONTINUES:
+            begins_next, place_next = False, places[t]
         if not is_drawn(front[t], mode[t], culled, no_edges):
             continue
         if mode[t] == gl.GL_LINE:
@@ -169,7 +176,8 @@ def list_primitives(front, mode, culled, no_edges, edges, begins, filled, lines,
             start = (k + 2) % 3  # the edge between the last corner and the first one is drawn first
             if edges[t, start]:
                 lines[n_lines, 0], lines[n_lines, 1] = 3 * t + start, 3 * t + k
-                begins_line[n_lines], begins_next = begins_next, False
+                line_places[n_lines] = 0 if begins_next else place_next
+                begins_next, place_next = False, CONTINUES
                 n_lines += 1
     return n_filled, n_lines, n_points, begins_next
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip import outcodes
@@ -28,17 +29,20 @@ def draws_stippled_lines(command: Draw) -> bool:
 
 
 def begins_stipple_anew(command: Draw, model_view_projection: np.ndarray) -> bool:
-    """Return whether the first line of a draw is surely drawn, so that its pattern begins anew there."""
-    if command.mode not in LINES:
-        return False
+    """Return whether the first line or polygon of a draw is surely drawn, so that the pattern begins anew there."""
     indices, positions = command.indices, command.vertices.position
-    ends = positions[:2] if indices is None else positions[indices[:2]]
-    if len(ends) < 2:
+    if command.mode in LINES:
+        n = 2
+    elif command.state.cull.enabled or command.vertices.edges is not None:
+        return False
+    else:
+        n = 4 if command.mode in (gl.GL_QUADS, gl.GL_QUAD_STRIP) else 3
+    first = positions[:n] if indices is None else positions[indices[:n]]
+    if len(first) < n:
         return False
     with np.errstate(all="ignore"):  # as in pipeline.draw
-        clip = to_clip(model_view_projection, ends)
-        first, second = outcodes(clip, command.state.depth.clamp, user_planes(command)).tolist()
-    return not first | second
+        clip = to_clip(model_view_projection, first)
+        return not outcodes(clip, command.state.depth.clamp, user_planes(command)).any()
 
 
 def stipple_place_after(command: Draw, storage: Storage) -> int:

@@ -14,7 +14,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.frozen import evolve
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.geometry.assembly import begins_stipple
+from softshadow.pipeline.geometry.assembly import begins_stipple, pieces_begin_stipple
 from softshadow.pipeline.geometry.clip import clip_triangles
 from softshadow.pipeline.geometry.draw_primitives import (
     assembled_triangles,
@@ -76,9 +76,8 @@ def window_primitives(command: Draw, storage: Storage) -> WindowPrimitives:
         # of the polygon offset only the slope remains: no depth format is set for this pipeline
         state = evolve(command.state, polygon=evolve(command.state.polygon, units=0.0))
 
-        begins = begins_stipple(command.mode, len(assembled.corners))[clipped.source]
-        cut = (codes[assembled.corners] != 0).any(axis=1)[clipped.source]
-        begins = np.where(cut, np.diff(clipped.source, prepend=-1) != 0, begins)
+        first = begins_stipple(command.mode, len(assembled.corners))
+        begins = pieces_begin_stipple(first, codes != 0, assembled.corners, clipped.source)
 
         def outlined_with(edges: np.ndarray) -> Outlined:
             return outline(

@@ -97,6 +97,10 @@ class Program:
         conventions = gl.GL_FIRST_VERTEX_CONVENTION, gl.GL_LAST_VERTEX_CONVENTION
         gl.glProvokingVertex(int(self.corners.choice(conventions, p=(0.3, 0.7))))
         gl.glEdgeFlag(self.corners.random() < 0.9)
+        if self.corners.random() > 0.85:  # outlines of dashes
+            gl.glPolygonMode(gl.GL_FRONT_AND_BACK, gl.GL_LINE)
+            gl.glEnable(gl.GL_LINE_STIPPLE)
+            gl.glDisable(gl.GL_LINE_SMOOTH)
 
     def set_tests(self) -> None:
         """Change a few of the settings that many small draws of ordinary programs change in between."""

@@ -11,13 +11,17 @@ from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.geometry.stipple_places import begins_stipple_anew, stipple_place_after
 
 SIZE = 24
-MODES = (gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_TRIANGLES)
+MODES = (
+    gl.GL_LINES, gl.GL_LINE_STRIP, gl.GL_LINE_LOOP, gl.GL_LINE_STRIP, gl.GL_POINTS, gl.GL_TRIANGLES, gl.GL_QUADS,
+    gl.GL_QUAD_STRIP, gl.GL_POLYGON,
+)  # fmt: skip
 
 
 def draw_something(rng: np.random.Generator) -> None:
     """Draw a few lines, often from outside of the window or with too few vertices, or something else."""
     gl.glPolygonMode(gl.GL_FRONT_AND_BACK, int(rng.choice([gl.GL_LINE, gl.GL_FILL])))
     (gl.glDisable if rng.random() < 0.2 else gl.glEnable)(gl.GL_LINE_STIPPLE)
+    (gl.glEnable if rng.random() < 0.2 else gl.glDisable)(gl.GL_CULL_FACE)
     gl.glBegin(int(rng.choice(MODES)))
     for x, y in rng.uniform(-1.6, 1.6, (int(rng.integers(0, 6)), 2)).tolist():
         gl.glVertex2f(x, y)
@@ -56,6 +60,31 @@ def test_a_strip_that_begins_inside_does_not_ask():
         draws = [command for command in context._frame.commands if isinstance(command, Draw)]
         products = [multiply(draw.projection, draw.modelview) for draw in draws]
         assert [*map(begins_stipple_anew, draws, products)] == [True, False]
+
+
+def test_a_polygon_that_is_surely_drawn_does_not_ask():
+    """Not one that may be culled, one with a corner outside, or one whose edges may be hidden."""
+    with gl.create_context(SIZE, SIZE) as context:
+        gl.glEnable(gl.GL_LINE_STIPPLE)
+        gl.glLineStipple(1, 0x0F0F)
+        gl.glPolygonMode(gl.GL_FRONT_AND_BACK, gl.GL_LINE)
+        for x, cap in ((0.5, 0), (2.0, 0), (0.5, gl.GL_CULL_FACE)):
+            if cap:
+                gl.glEnable(cap)
+            for mode in (gl.GL_QUADS, gl.GL_TRIANGLES):
+                gl.glBegin(mode)
+                gl.glVertex2f(-0.5, -0.5)
+                gl.glVertex2f(x, -0.5)
+                gl.glVertex2f(x, 0.5)
+                gl.glVertex2f(-0.5, 0.5)
+                gl.glEnd()
+        gl.glDisable(gl.GL_CULL_FACE)
+        gl.glEdgeFlag(False)
+        gl.glRectf(-0.5, -0.5, 0.5, 0.5)
+        gl.glFinish()
+        draws = [command for command in context._frame.commands if isinstance(command, Draw)]
+        products = [multiply(draw.projection, draw.modelview) for draw in draws]
+        assert [*map(begins_stipple_anew, draws, products)] == [True] * 2 + [False] * 5
 
 
 def test_numbers_without_a_value_give_no_warning(recwarn):

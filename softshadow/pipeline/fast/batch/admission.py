@@ -12,7 +12,7 @@ from softshadow.pipeline.fast.batch.assembly import MODES, WIDTH_OF_POLYGONS, wi
 from softshadow.pipeline.fast.batch.vertices import GENERATED
 from softshadow.pipeline.geometry.draw_primitives import has_no_edges
 from softshadow.pipeline.geometry.vertex import to_clip
-from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, offset_is_on, passes_stages
+from softshadow.pipeline.mesa.polygon_rules import effective_modes, offset_is_on, passes_stages
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.mesa.rectangles import LAST_NINE, TRIANGLE, start_of_last_nine
 from softshadow.programs.inverse import UNKNOWN
@@ -102,7 +102,7 @@ def _are_covered(mode: int, state: State) -> bool:
     points, lines, polygon = state.points, state.lines, state.polygon
     if width_of(mode) < WIDTH_OF_POLYGONS or not passes_stages(state):
         return True
-    if first_provokes(state) or lines.smooth or is_stippled(lines) or points != PLAIN_POINTS:
+    if first_provokes(state) or lines.smooth or points != PLAIN_POINTS:
         return False
     front, back = effective_modes(state)
     if (front, back) == (gl.GL_FILL, gl.GL_FILL):

@@ -27,7 +27,12 @@ from softshadow.pipeline.fast.batch.assembly import (
     width_of,
 )
 from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
-from softshadow.pipeline.fast.batch.lines_and_points import sizes_of_points, stipple_places, widths_of_lines
+from softshadow.pipeline.fast.batch.lines_and_points import (
+    sizes_of_points,
+    stipple_of_polygons,
+    stipple_places,
+    widths_of_lines,
+)
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
@@ -52,6 +57,7 @@ from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, em
 from softshadow.pipeline.geometry.vertex import append_rows
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.memory.threads import parts_of, share
+from softshadow.pipeline.mesa.polygon_rules import is_stippled
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
@@ -203,7 +209,10 @@ def geometry_of(
         widths = widths_of_lines(run, draws, clipped.source) if width == WIDTH_OF_LINES else None
         return _batch(points_and_lines_geometry(geometry, clipped, command, target, sizes, places, widths))
     if not is_filled:
-        outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull)
+        begins, places = None, None
+        if is_stippled(run.state.lines):
+            begins, places = stipple_of_polygons(draws, codes, triangles[:n_triangles], clipped.source)
+        outlined = outlined_geometry(geometry, clipped, command, target, command.state.cull, begins, places=places)
         return Batch(outlined, -1, geometry.provoking)
     geometry = filled_geometry(geometry, clipped, command, target, command.state.cull)
     if recent:

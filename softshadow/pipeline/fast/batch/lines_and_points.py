@@ -12,6 +12,7 @@ from softshadow.pipeline.fast.batch.admission import PLAIN_POINTS
 from softshadow.pipeline.fast.batch.assembly import primitives_of
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.table import REAL
+from softshadow.pipeline.geometry.assembly import begins_stipple, pieces_begin_stipple
 from softshadow.pipeline.geometry.geometry import vertex_inputs
 from softshadow.pipeline.geometry.line_stipple import CONTINUES
 from softshadow.pipeline.geometry.lines_and_points import size_of_points
@@ -50,3 +51,18 @@ def stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
     before = np.array([draw.stipple_place for draw in draws], np.int32)[of_line]
     goes_on = np.diff(of_line, prepend=-1) == 0
     return np.where(separate | (source == firsts), 0, np.where(goes_on, CONTINUES, before)).astype(np.int32)
+
+
+def stipple_of_polygons(
+    draws: Sequence[Draw], codes: np.ndarray, triangles: np.ndarray, source: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return which pieces of clipped triangles begin the line stipple anew, and `outline`'s places, both (T',).
+
+    codes (V,), triangles (T, 3): of all draws; source (T',): the triangle that each piece comes from.
+    """
+    counts = [primitives_of(draw) for draw in draws]
+    first = np.concatenate([begins_stipple(draw.mode, count) for draw, count in zip(draws, counts, strict=True)])
+    of_piece = np.repeat(np.arange(len(draws)), counts)[source]
+    before = np.array([draw.stipple_place for draw in draws], np.int32)[of_piece]
+    places = np.where(np.diff(of_piece, prepend=-1) != 0, before, np.int32(CONTINUES))
+    return pieces_begin_stipple(first, codes != 0, triangles, source), places
