@@ -25,7 +25,8 @@ from softshadow.pipeline.mesa.polygon_rules import is_stippled, passes_stages
 def draws_stippled_lines(command: Draw) -> bool:
     """Return whether a draw may go on in the line stipple, or leave it elsewhere."""
     state = command.state
-    return is_stippled(state.lines) and (command.mode in LINES or passes_stages(state))
+    may_be_lines = command.mode in LINES or (command.mode != gl.GL_POINTS and passes_stages(state))
+    return is_stippled(state.lines) and may_be_lines
 
 
 def begins_stipple_anew(command: Draw, model_view_projection: np.ndarray) -> bool:
