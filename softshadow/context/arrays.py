@@ -164,9 +164,9 @@ class BufferObject:
 class ClientArrays:
     """Vertex arrays: which are enabled, the array or buffer of each, and what draws have read from them.
 
-    Names are keys of `SLOTS`: "position", "color", "texcoord0" ... `active` holds the arrays that a
-    draw reads, position first; None after a change. `constants` are the attributes without an array as the last draw
-    had them.
+    Names are keys of `SLOTS`: "position", "color", "texcoord0" ... `active` holds the arrays that a draw reads,
+    position first; None after a change. `active_slots` are theirs. `constants` are the attributes without an array as
+    the last draw had them.
     """
 
     enabled: set[str] = field(default_factory=set)
@@ -177,10 +177,12 @@ class ClientArrays:
     layouts: dict[str, ArrayLayout] = field(default_factory=dict)
     active_unit: int = 0
     active: tuple[VertexArray, ...] | None = None
+    active_slots: tuple[int, ...] = ()
     readers: tuple[tuple[VertexArray, ...], Any] | None = None  # of glArrayElement, for these active arrays
     constants: Any = None
     sources: Cache = field(default_factory=Cache)  # vertex arrays by the pointer argument
     indices: Cache = field(default_factory=Cache)  # index arrays by the argument
+    latest_indices: tuple[Any, int, Any, Any] | None = None  # argument, number, dtype, and what was found in `indices`
     snapshots: Cache = field(default_factory=Cache)  # of both, by their contents
 
     def layout(self, name: str) -> ArrayLayout:

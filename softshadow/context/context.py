@@ -20,7 +20,7 @@ from softshadow.context.current_values import CurrentValues, CurrentVertex
 from softshadow.context.display_list import DisplayList
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
-from softshadow.context.late_draws import LateDraw, LateDraws
+from softshadow.context.late_draws import LateDraw, LateDraws, MovedDraw
 from softshadow.context.line_pattern import LinePattern
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
@@ -252,17 +252,16 @@ class Context(CurrentValues, Precision):
         if text is not None:
             self._carry_out(text.command())
 
-    def add_late(self, draw: LateDraw) -> None:
-        """Let a draw wait for its arrays."""
+    def add_late(self, draw: LateDraw | MovedDraw) -> None:
+        """Let a draw wait."""
         if self.text is not None:
             self._draw_text()
         if self.late.add(draw):
             self._draw_late()
 
     def _draw_late(self) -> None:
-        """Carry out and record the draws that wait for their arrays."""
-        lists, memory = self.late.take()
-        for draws in lists:
+        """Carry out and record the draws that are late."""
+        for draws, memory in self.late.take():
             self._carry_out_several(draws, self._waiting.add_like, memory)
 
     def _carry_out(self, command: Command) -> None:
@@ -343,6 +342,10 @@ class Context(CurrentValues, Precision):
         if not self.ready:
             self.flush()
         self.update_current()
+        return self.draw_prepared(mode, vertices, indices, pairs_mode)
+
+    def draw_prepared(self, mode: int, vertices: Vertices, indices: np.ndarray | None, pairs_mode: int) -> Draw:
+        """Draw primitives as `draw` does, where nothing is collected any more and all attributes are current."""
         command = self.draw_command(mode, self._with_current(vertices), indices)
         if pairs_mode:
             command = command._replace(pairs_mode=pairs_mode)

@@ -1,15 +1,15 @@
-"""Draws of glBegin ... glEnd pairs whose arrays are not made yet: those of many draws are made at once.
+"""Draws that are made later, many at once: those of glBegin ... glEnd pairs, and of small arrays and lists.
 
-A program that draws each of many objects between a glBegin and a glEnd, under a matrix and in a colour of its own,
-makes hundreds of draws of a few vertices in a frame. Making the arrays of one of them, and carrying it out, takes as
-long as its calls. So such draws wait with their numbers until something else is drawn, or someone looks.
+A program that draws each of many objects under a matrix and in a colour of its own makes hundreds of draws of a few
+vertices in a frame. Making one of them (for a pair, with its arrays) and carrying it out takes as long as its calls. So
+such draws wait with their numbers or arrays until something else is drawn, or someone looks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from itertools import chain, groupby, repeat
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
+MOVED_NUMBERS = 16  # as which a draw counts whose arrays have been made
 MOST_FORMS = 1024  # as many as there are states that are found again
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
@@ -71,6 +72,19 @@ class LateDraw(NamedTuple):
         return _made([(self, vertices)])[0]
 
 
+class MovedDraw(NamedTuple):
+    """A draw that differs from an earlier one, `like`, in its vertices, indices and modelview matrix only.
+
+    Its vertices have arrays of the same attributes.
+    """
+
+    like: Draw
+    vertices: Vertices
+    indices: np.ndarray | None
+    modelview: np.ndarray
+    modelview_kind: int
+
+
 def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
     """Return the draws with their arrays; they are like the same one."""
     moved = [(vertices, None, draw.modelview, draw.modelview_kind) for draw, vertices in alike]
@@ -78,12 +92,20 @@ def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
     return [separated(each, draw.counts) if draw.counts else each for each, (draw, _) in zip(made, alike, strict=True)]
 
 
+def _moved(draws: Sequence[MovedDraw]) -> Iterator[tuple[list[Draw], None]]:
+    for _, same in groupby(draws, lambda draw: id(draw.like)):
+        alike = list(same)
+        yield moved_draws(alike[0].like, [draw[1:] for draw in alike]), None
+
+
 class LateDraws:
-    """Draws that wait for their arrays.
+    """Draws that wait.
 
     Attributes
     ----------
     draws : list             these, in their order
+    earlier : dict           draws that others may continue, by their modes, the identity of their state, and the slots
+                             of their arrays (`softshadow.gl.moved_draws`)
     forms : dict             the latest ones, by their mode, the identity of their state, and what the vertices carry
 
     Parameters
@@ -93,7 +115,8 @@ class LateDraws:
 
     def __init__(self, precision: Precision) -> None:
         self._precision = precision
-        self.draws: list[LateDraw] = []
+        self.draws: list[LateDraw | MovedDraw] = []
+        self.earlier: dict[tuple[int, int, int, tuple[int, ...]], Draw] = {}
         self.forms: dict[tuple[Hashable, ...], LateForm] = {}
         self._n_numbers = 0
 
@@ -103,18 +126,25 @@ class LateDraws:
             self.forms.clear()
         self.forms[key] = form
 
-    def add(self, draw: LateDraw) -> bool:
+    def add(self, draw: LateDraw | MovedDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
         self.draws.append(draw)
-        self._n_numbers += len(draw.primitive.positions)
+        self._n_numbers += len(draw.primitive.positions) if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS
 
-    def take(self) -> tuple[list[list[Draw]], list[np.ndarray]]:
-        """Return the draws in their order, and forget them; those of a list differ in vertices and matrix only.
+    def take(self) -> Iterator[tuple[list[Draw], list[np.ndarray] | None]]:
+        """Yield the draws in their order, and forget them; those of a list differ in vertices and matrix only.
 
-        They have arrays of the same attributes. And the memory of these arrays, which they share.
+        They have arrays of the same attributes. And the memory of these arrays, which they share; None where each has
+        its own.
         """
         draws, self.draws, self._n_numbers = self.draws, [], 0
+        for kind, same in groupby(draws, type):
+            alike: list[Any] = list(same)
+            yield from self._of_pairs(alike) if kind is LateDraw else _moved(alike)
+
+    def _of_pairs(self, draws: Sequence[LateDraw]) -> Iterator[tuple[list[Draw], list[np.ndarray]]]:
+        """Yield the draws of pairs in their order, as `take` does."""
         forms: dict[Hashable, list[LateDraw]] = {}
         keys = [(len(draw.primitive.positions), draw.form.columns, id(draw.form.texcoords)) for draw in draws]
         for key, draw in zip(keys, draws, strict=True):
@@ -123,7 +153,8 @@ class LateDraws:
         vertices = {key: iter(self._vertices(same, memory)) for key, same in forms.items()}
         with_vertices = zip(draws, [next(vertices[key]) for key in keys], strict=True)
         alike = groupby(with_vertices, lambda each: (id(each[0].form.like), each[0].form.columns))
-        return [_made(list(same)) for _, same in alike], memory
+        for _, same in alike:
+            yield _made(list(same)), memory
 
     def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
         """Return the vertices of draws with as many vertices and the same attributes; add their memory."""

@@ -165,6 +165,7 @@ class StateGroups:
     def __init__(self, state: State, single: bool) -> None:
         self._single = single
         self.followed: Followed | None = None
+        self._asked: tuple[Any, Any, bool] = None, None, False  # the last question of `have_followed`, and its answer
         self.root = Group(state, None, "")
         self.groups: dict[str, Group] = {"": self.root}
         self.changed: set[Group] = set()
@@ -233,12 +234,15 @@ class StateGroups:
         if self.followed is not None:
             last = self.followed[2]
             return last is color or last == color
-        rounded = self._rounded(color)
+        asked_lighting, asked_color, answer = self._asked
+        if lighting is asked_lighting and color is asked_color:
+            return answer
+        rounded, answer = self._rounded(color), True
         for side, material in (("front", lighting.front), ("back", lighting.back)):
             for field in reflectances.followed(lighting, side):
-                if getattr(material, field) != rounded:
-                    return False
-        return True
+                answer = answer and getattr(material, field) == rounded
+        self._asked = lighting, color, answer
+        return answer
 
     def settled(self, lighting: Lighting, followed: Followed | None) -> Lighting:
         """Return an earlier lighting whose materials contain the colour that they followed then."""

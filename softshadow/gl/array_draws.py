@@ -16,7 +16,7 @@ from softshadow import tokens as gl
 from softshadow.context import Context, current, thread
 from softshadow.context.arrays import EDGE, FOG_COORDINATE, POSITION, SECONDARY, SLOT_NAMES
 from softshadow.gl.array_elements import glArrayElement
-from softshadow.gl.array_snapshots import origins, slice_of, snapshot_rows
+from softshadow.gl.array_snapshots import is_current, origins, slice_of, snapshot_rows
 from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
@@ -25,6 +25,7 @@ from softshadow.gl.index_snapshots import IndexSnapshot, Rows, snapshot_indices
 from softshadow.gl.joined_draws import joined_indices, joined_ranges, joins
 from softshadow.gl.list_compiling import shares_vertices, used_rows
 from softshadow.gl.list_primitives import ListPrimitive
+from softshadow.gl.moved_draws import draw_maybe_later
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.gl.vertex_arrays import DTYPES, arrays_in_use
 from softshadow.pipeline.commands import Vertices
@@ -139,12 +140,15 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
 def _named_rows(context: Context, operation: str, snapshot: IndexSnapshot) -> Rows | None:
     """Return the rows that indices name, as `_rows` does."""
     arrays, rows = arrays_in_use(context), snapshot.rows
-    if rows is None or snapshot.arrays != arrays:
-        if snapshot.lowest < 0:
-            raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
-        rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
-        if rows is not None and arrays and arrays[0].slot == POSITION:  # other rows also depend on what is enabled
-            snapshot.keep(arrays, rows)
+    if rows is not None and snapshot.arrays == arrays:
+        taken, first, end = rows
+        if all(is_current(*each, first, end) for each in zip(arrays, taken, strict=True)):
+            return rows
+    if snapshot.lowest < 0:
+        raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
+    rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
+    if rows is not None and arrays and arrays[0].slot == POSITION:  # other rows also depend on what is enabled
+        snapshot.arrays, snapshot.rows = arrays, rows
     return rows
 
 
@@ -154,7 +158,7 @@ def _flushed(operation: str) -> Context | None:
     if not context.ready:
         if outside_begin(operation) is None:
             return None
-        context.flush()
+        context.separate()
         context.ready = context.compiled_list is None
     return context
 
@@ -176,7 +180,7 @@ def _draw(context: Context, mode: int, rows: Rows | None, indices: np.ndarray | 
         return
     compiled = context.compiled_list
     if compiled is None:
-        context.draw(mode, _vertices(context, rows), indices)
+        draw_maybe_later(context, mode, _vertices(context, rows), indices, context.arrays.active_slots)
         return
     _, first, end = rows
     listed = consecutive_indices(end - first) if indices is None else indices

@@ -77,6 +77,13 @@ def snapshot_rows(array: VertexArray, first: int, end: int, context: Context) ->
     return array.snapshot
 
 
+def is_current(array: VertexArray, kept: RowSnapshot, first: int, end: int) -> bool:
+    """Return whether a snapshot that has the rows [first, end) is the last one of an array, and they have its bits."""
+    if array.snapshot is not kept or (array.root is not None and array.root.flags.writeable):
+        return False
+    return array.is_fixed or is_unchanged(array, kept, first, end)
+
+
 def origins(first: int, end: int, context: Context) -> RowSnapshot:
     """Return the positions of vertices [first, end) that have none in an array."""
     rows = np.zeros((end - first, 4), context.real)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import BufferObject, RowSnapshot, VertexArray
+from softshadow.context.arrays import RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of
 from softshadow.gl.buffers import offset_of
 from softshadow.pipeline.memory.comparison import same_memory
@@ -28,7 +28,7 @@ class IndexSnapshot:
 
     A draw takes the vertices `lowest` to `highest` only, so that others of the same arrays are not processed. `content`
     is the source of a small array, `raw` that of a larger one, at `address`. `rows` are those of the latest draw, from
-    `arrays` that are all in buffer objects: programs draw one mesh in many places.
+    `arrays` with positions: programs draw one mesh in many places.
     """
 
     indices: np.ndarray
@@ -39,11 +39,6 @@ class IndexSnapshot:
     address: int
     arrays: tuple[VertexArray, ...] = ()
     rows: Rows | None = None
-
-    def keep(self, arrays: tuple[VertexArray, ...], rows: Rows) -> None:
-        """Keep the rows of a draw if they are in buffer objects, where changed contents are other arrays."""
-        if all(isinstance(array.owner, BufferObject) for array in arrays):
-            self.arrays, self.rows = arrays, rows
 
 
 @dataclass(eq=False, slots=True)
@@ -77,22 +72,19 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
             make = partial(_taken, context, operation, count, _numbers_at(bound.content, offset, dtype))
             stored = bound.view(place_in_buffer, make)
         return stored
+    latest = arrays.latest_indices
+    is_latest = latest is not None and latest[0] is indices and latest[1] == count and latest[2] is dtype
+    if latest is not None and is_latest and _has_bits(latest[3], indices):
+        snapshot: IndexSnapshot = latest[3].snapshot
+        return snapshot
     is_view = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
     owner = owner_of(indices) if is_view else indices
     place = indices.__array_interface__["data"][0] if is_view else id(indices)  # views of an owner are equal by place
     key = place, is_view, count, dtype.char, indices.dtype.char if is_view else ""
     known: IndexArray | None = arrays.indices.get(key)
-    if known is not None and known.owner is owner:
-        if known.flat is None:
-            return known.snapshot
-        if indices.dtype is known.dtype:
-            content = known.snapshot.content
-            if (
-                known.flat.tobytes() == content
-                if content is not None
-                else same_memory(known.address, known.snapshot.address, known.flat.nbytes)
-            ):
-                return known.snapshot
+    if known is not None and known.owner is owner and _has_bits(known, indices):
+        arrays.latest_indices = indices, count, dtype, known
+        return known.snapshot
     if isinstance(indices, bytes | bytearray | memoryview):
         numbers = np.frombuffer(indices, dtype)[:count]
     else:
@@ -106,6 +98,18 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
         entry = IndexArray(indices, None, None, 0, snapshot)
         arrays.indices.put(key, entry, len(indices) + 2 * snapshot.raw.nbytes)
     return snapshot
+
+
+def _has_bits(known: IndexArray, indices: Any) -> bool:
+    """Return whether an array still has the bits of its last snapshot."""
+    if known.flat is None:
+        return True
+    if indices.dtype is not known.dtype:
+        return False
+    snapshot = known.snapshot
+    if snapshot.content is not None:
+        return known.flat.tobytes() == snapshot.content
+    return same_memory(known.address, snapshot.address, known.flat.nbytes)
 
 
 def _numbers_at(content: np.ndarray, offset: int, dtype: np.dtype) -> np.ndarray:

@@ -23,6 +23,7 @@ from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
+from softshadow.gl.moved_draws import draw_maybe_later
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.pipeline.commands import Vertices
 from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, pairs_mode_of, separate_indices
@@ -47,6 +48,7 @@ class ListPrimitive:
     drawn : DrawnVertices        by all current values
     made : dict                  the same by those that the vertices have
     leaves_values : bool         whether its last values become current: not those of arrays, nor of pairs right before
+    slots : tuple of int         the keys of `starts`
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -62,7 +64,7 @@ class ListPrimitive:
     leaves_values: bool = True
 
     def __post_init__(self) -> None:
-        units = range(TEXTURE_UNITS)
+        units, self.slots = range(TEXTURE_UNITS), tuple(self.starts)
         self.carried_units = tuple([(unit, SLOT_NAMES[TEXCOORD + unit]) for unit in units
                                     if self.starts.get(TEXCOORD + unit) == 0])  # fmt: skip
 
@@ -80,7 +82,7 @@ class ListPrimitive:
     def draw(self, context: Context) -> None:
         """Draw the primitive, between others."""
         constants = self.begin_draw(context)
-        context.draw(self.mode, self.vertices(constants), self.indices)
+        draw_maybe_later(context, self.mode, self.vertices(constants), self.indices, self.slots)
 
     def begin_draw(self, context: Context) -> ConstantSet:
         """Make the last attributes current; return the values of those that the list does not set."""
@@ -157,13 +159,14 @@ class SimilarPrimitives:
         first, others = self.primitives[0], self.primitives[1:]
         constants = first.begin_draw(context)
         if self.separate is not None and self.are_separate_in(context):
-            separate = self.separate
-            context.draw(separate.mode, separate.vertices(constants), separate.indices, self.pairs_mode)
+            joined = self.separate
+            vertices = joined.vertices(constants)
+            draw_maybe_later(context, joined.mode, vertices, joined.indices, joined.slots, self.pairs_mode)
         else:
             draw = context.draw(first.mode, first.vertices(constants), first.indices)
             context.draw_like(draw, [(each.mode, each.vertices(constants), each.indices) for each in others])
         self.primitives[-1].make_current(context)
-        context.flush()
+        context.separate()
 
     def are_separate_in(self, context: Context) -> bool:
         """Return whether `separate`, if they can be that, have the same pixels under the current state."""

@@ -16,6 +16,7 @@ from softshadow.context.joined_pairs import LateVertices, Told
 from softshadow.context.late_draws import NO_VERTICES, LateDraw, LateForm
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import Carried, carried_of, kept_constants
+from softshadow.gl.moved_draws import is_unmarked
 from softshadow.gl.vertex_format import vertices_of
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.geometry.separate import SEPARABLE
@@ -79,7 +80,7 @@ def form_of(context: Context, mode: int, carried: Iterable[str]) -> LateForm | N
     change, or where their vertices have attributes that not all `Vertices` have. `carried` are those they carry.
     """
     state, current, late = context.drawn_state, context.current, context.late
-    if context.labels or context.origin is not None or context.gate is not None:
+    if not is_unmarked(context):
         return None
     key = mode, id(state), *carried
     form = late.forms.get(key)

@@ -200,6 +200,7 @@ def arrays_in_use(context: Context) -> tuple[VertexArray, ...]:
         keys = [key for key in SLOT_NAMES if key in context.arrays.enabled and key != NOT_DRAWN]
         arrays = [array_of(context, key) or _array_without_pointer(context, key) for key in keys]
         active = context.arrays.active = tuple([array for array in arrays if array is not None])
+        context.arrays.active_slots = tuple([array.slot for array in active])
     return active
 
 

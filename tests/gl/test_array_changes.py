@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.gl import array_snapshots, index_snapshots
+from softshadow.context import Context
+from softshadow.gl import array_draws, array_snapshots, index_snapshots
 from softshadow.gl.vertex_arrays import DTYPES, rows_of
+from softshadow.pipeline.commands import Vertices
 
 POINTERS = {"position": gl.glVertexPointer, "color": gl.glColorPointer, "texcoord0": gl.glTexCoordPointer}
 STATES = {
@@ -19,11 +21,16 @@ REST = (0, 0, 0, 1)
 
 
 @pytest.fixture(params=["mesa", "exact"])
-def context(request):
+def context(request, monkeypatch):
     with gl.create_context(4, 4, precision=request.param) as context:
         gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
         drawn: list[Any] = []
-        vars(context).update(drawn=drawn, draw=lambda mode, vertices, indices=None: drawn.append((vertices, indices)))
+        vars(context).update(drawn=drawn)
+
+        def note(context: Context, mode: int, vertices: Vertices, indices: Any, slots: tuple[int, ...]) -> None:
+            drawn.append((vertices, indices))
+
+        monkeypatch.setattr(array_draws, "draw_maybe_later", note)
         yield context
 
 

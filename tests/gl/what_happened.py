@@ -95,7 +95,7 @@ def what_happened(calls: list[Call], precision: str, looks_after: Container[int]
                         buffer.joined_pairs is None,
                         context.error,
                         context.primitive is None,
-                        len(context._frame.commands),
+                        len(context._frame.commands) + len(context.late.draws),
                     ]
                 )
             )
