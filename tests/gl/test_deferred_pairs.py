@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.random_author import RandomAuthor
 from gl.what_happened import Call, what_happened
 from softshadow import gl
 from softshadow.context import vertex_buffer
@@ -22,22 +23,8 @@ CAPS = gl.GL_LIGHTING, gl.GL_COLOR_MATERIAL, gl.GL_TEXTURE_2D, gl.GL_LINE_STIPPL
 SMALL_BUFFER = 8192  # bytes: it is full after some pairs
 
 
-class Author:
+class Author(RandomAuthor):
     """Writes random programs: most pairs are alike, and most are followed by a change of the matrix."""
-
-    def __init__(self, seed: int) -> None:
-        self.rng = np.random.default_rng(seed)
-        self.depth = 0
-
-    def chance(self, p: float) -> bool:
-        return bool(self.rng.random() < p)
-
-    def one_of(self, values: Any) -> Any:
-        values = list(values)
-        return values[int(self.rng.integers(len(values)))]
-
-    def numbers(self, n: int) -> list[float]:
-        return [float(x) for x in self.rng.choice([-0.5, 0.0, -0.0, 0.25, 0.3, 1.0], n)]
 
     def attribute(self, name: str) -> Call:
         if name == "glColor4ub":

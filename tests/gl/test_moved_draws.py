@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gl.random_author import RandomAuthor
 from gl.what_happened import Call, what_happened
 from softshadow import gl
 from softshadow.context import Context
@@ -20,22 +21,8 @@ CAPS = (
 STATES = gl.GL_NORMAL_ARRAY, gl.GL_COLOR_ARRAY, gl.GL_TEXTURE_COORD_ARRAY, gl.GL_EDGE_FLAG_ARRAY
 
 
-class Author:
+class Author(RandomAuthor):
     """Writes random programs: most draws follow a change of the matrix or of the colour only."""
-
-    def __init__(self, seed: int) -> None:
-        self.rng = np.random.default_rng(seed)
-        self.depth = 0
-
-    def chance(self, p: float) -> bool:
-        return bool(self.rng.random() < p)
-
-    def one_of(self, values: Any) -> Any:
-        values = list(values)
-        return values[int(self.rng.integers(len(values)))]
-
-    def numbers(self, n: int) -> list[float]:
-        return [float(x) for x in self.rng.choice([-0.5, 0.0, -0.0, 0.25, 0.3, 1.0], n)]
 
     def array(self, width: int) -> np.ndarray:
         numbers = self.rng.uniform(-1, 1, (8, width)).astype(np.float32)
