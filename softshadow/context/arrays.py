@@ -183,6 +183,7 @@ class ClientArrays:
     sources: Cache = field(default_factory=Cache)  # vertex arrays by the pointer argument
     indices: Cache = field(default_factory=Cache)  # index arrays by the argument
     latest_indices: tuple[Any, int, Any, Any] | None = None  # argument, number, dtype, and what was found in `indices`
+    latest_rows: tuple[Any, tuple[VertexArray, ...], Any] | None = None  # of these arrays, which indices have named
     snapshots: Cache = field(default_factory=Cache)  # of both, by their contents
 
     def layout(self, name: str) -> ArrayLayout:

@@ -139,16 +139,20 @@ def _draw_elements(operation: str, mode: int, count: int, type: int, indices: An
 
 def _named_rows(context: Context, operation: str, snapshot: IndexSnapshot) -> Rows | None:
     """Return the rows that indices name, as `_rows` does."""
-    arrays, rows = arrays_in_use(context), snapshot.rows
+    arrays, rows, latest = arrays_in_use(context), snapshot.rows, context.arrays.latest_rows
     if rows is not None and snapshot.arrays == arrays:
-        taken, first, end = rows
+        return rows
+    if latest is not None and latest[0] is snapshot and latest[1] == arrays:
+        known: Rows = latest[2]
+        taken, first, end = known
         if all(is_current(*each, first, end) for each in zip(arrays, taken, strict=True)):
-            return rows
+            return known
     if snapshot.lowest < 0:
         raise ValueError(f"{operation}: index {snapshot.lowest} is negative")
     rows = _rows(context, operation, snapshot.lowest, snapshot.highest + 1)
     if rows is not None and arrays and arrays[0].slot == POSITION:  # other rows also depend on what is enabled
-        snapshot.arrays, snapshot.rows = arrays, rows
+        snapshot.keep(arrays, rows)
+        context.arrays.latest_rows = snapshot, arrays, rows
     return rows
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import RowSnapshot, VertexArray
+from softshadow.context.arrays import BufferObject, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of
 from softshadow.gl.buffers import offset_of
 from softshadow.pipeline.memory.comparison import same_memory
@@ -28,7 +28,7 @@ class IndexSnapshot:
 
     A draw takes the vertices `lowest` to `highest` only, so that others of the same arrays are not processed. `content`
     is the source of a small array, `raw` that of a larger one, at `address`. `rows` are those of the latest draw, from
-    `arrays` with positions: programs draw one mesh in many places.
+    `arrays` that are all in buffer objects: programs draw one mesh in many places.
     """
 
     indices: np.ndarray
@@ -39,6 +39,11 @@ class IndexSnapshot:
     address: int
     arrays: tuple[VertexArray, ...] = ()
     rows: Rows | None = None
+
+    def keep(self, arrays: tuple[VertexArray, ...], rows: Rows) -> None:
+        """Keep the rows of a draw if they are in buffer objects, where changed contents are other arrays."""
+        if all(isinstance(array.owner, BufferObject) for array in arrays):
+            self.arrays, self.rows = arrays, rows
 
 
 @dataclass(eq=False, slots=True)
