@@ -1,4 +1,4 @@
-"""Draws of lists and of small arrays that differ from the draw before in vertices and modelview matrix only.
+"""Draws of lists and of small arrays that differ from an earlier one in vertices and modelview matrix only.
 
 A program that draws many objects, each under a matrix of its own, by a list or from arrays makes such draws. They wait
 (`softshadow.context.late_draws`), and are made together.
