@@ -419,8 +419,10 @@ class Context(CurrentValues, Precision):
 
     def has_followed(self, state: State) -> bool:
         """Return whether materials that follow the colour, if any do, have followed the current one."""
-        lighting = state.lighting
-        return not lighting.color_material or self.state_groups.have_followed(self.current.color, lighting)
+        lighting, groups, color = state.lighting, self.state_groups, self.current.color
+        if not lighting.color_material or (groups.followed is not None and groups.followed[2] is color):
+            return True
+        return groups.have_followed(color, lighting)
 
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""

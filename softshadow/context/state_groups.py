@@ -232,8 +232,7 @@ class StateGroups:
     def have_followed(self, color: Color, lighting: Lighting) -> bool:
         """Return whether the materials of the lighting of a draw, of which some follow colours, follow this one."""
         if self.followed is not None:
-            last = self.followed[2]
-            return last is color or last == color
+            return self.followed[2] == color
         asked_lighting, asked_color, answer = self._asked
         if lighting is asked_lighting and color is asked_color:
             return answer
