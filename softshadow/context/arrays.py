@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -160,6 +160,15 @@ class BufferObject:
         return self.views[key]
 
 
+class LatestIndices(NamedTuple):
+    """The argument of the latest draw with an index array, and what was found for it in `ClientArrays.indices`."""
+
+    argument: Any
+    n_indices: int
+    dtype: Any
+    found: Any
+
+
 @dataclass
 class ClientArrays:
     """Vertex arrays: which are enabled, the array or buffer of each, and what draws have read from them.
@@ -182,7 +191,7 @@ class ClientArrays:
     constants: Any = None
     sources: Cache = field(default_factory=Cache)  # vertex arrays by the pointer argument
     indices: Cache = field(default_factory=Cache)  # index arrays by the argument
-    latest_indices: tuple[Any, int, Any, Any] | None = None  # argument, number, dtype, and what was found in `indices`
+    latest_indices: LatestIndices | None = None
     latest_rows: tuple[Any, tuple[VertexArray, ...], Any] | None = None  # of these arrays, which indices have named
     snapshots: Cache = field(default_factory=Cache)  # of both, by their contents
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.arrays import BufferObject, RowSnapshot, VertexArray
+from softshadow.context.arrays import BufferObject, LatestIndices, RowSnapshot, VertexArray
 from softshadow.gl.array_snapshots import SMALL, is_immutable, owner_of
 from softshadow.gl.buffers import offset_of
 from softshadow.pipeline.memory.comparison import same_memory
@@ -78,17 +78,17 @@ def snapshot_indices(context: Context, operation: str, count: int, dtype: np.dty
             stored = bound.view(place_in_buffer, make)
         return stored
     latest = arrays.latest_indices
-    is_latest = latest is not None and latest[0] is indices and latest[1] == count and latest[2] is dtype
-    if latest is not None and is_latest and _has_bits(latest[3], indices):
-        snapshot: IndexSnapshot = latest[3].snapshot
-        return snapshot
+    if latest is not None and latest.argument is indices and latest.n_indices == count and latest.dtype is dtype:
+        found: IndexArray = latest.found
+        if _has_bits(found, indices):
+            return found.snapshot
     is_view = isinstance(indices, np.ndarray) and indices.flags.c_contiguous and is_immutable(indices)
     owner = owner_of(indices) if is_view else indices
     place = indices.__array_interface__["data"][0] if is_view else id(indices)  # views of an owner are equal by place
     key = place, is_view, count, dtype.char, indices.dtype.char if is_view else ""
     known: IndexArray | None = arrays.indices.get(key)
     if known is not None and known.owner is owner and _has_bits(known, indices):
-        arrays.latest_indices = indices, count, dtype, known
+        arrays.latest_indices = LatestIndices(indices, count, dtype, known)
         return known.snapshot
     if isinstance(indices, bytes | bytearray | memoryview):
         numbers = np.frombuffer(indices, dtype)[:count]

@@ -207,3 +207,18 @@ def test_formats_that_are_expected_in_vain_are_expected_less_often() -> None:
         alternating_pairs()
         assert 2 <= n_begun < 20
         assert len(context.frame.commands) == 200
+
+
+@pytest.mark.parametrize("settles", [False, True], ids=["followed", "stored in the materials"])
+def test_lit_pairs_in_the_current_colour_are_late(settles: bool) -> None:
+    """Materials that follow the colour have its value, also if a call has set the same colour again."""
+    with gl.create_context(8, 8) as context:
+        for cap in (gl.GL_LIGHTING, gl.GL_LIGHT0, gl.GL_COLOR_MATERIAL):
+            gl.glEnable(cap)
+        for number in range(6):
+            gl.glColor3f(0.5, 0.25, 1.0)
+            if settles:
+                assert context.state.lighting.color_material
+            gl.glRectf(-0.5, -0.5, 0.5, 0.5)
+            gl.glTranslatef(0.01, 0, 0)
+            assert len(context.late.draws) == number + 1
