@@ -145,10 +145,13 @@ def _inverse(elements: bytes, kind: int) -> np.ndarray:
 
 def with_translation(m: np.ndarray, linear: np.ndarray) -> np.ndarray:
     """Return the inverse of an affine matrix, whose 3x3 part is `linear`."""
-    out = np.eye(4, dtype=np.float32)
+    out = np.zeros((4, 4), np.float32)
     out[:3, :3] = linear
-    if m[:3, 3].any():
-        out[:3, 3] = [-dot(m[:3, 3], linear[i]) for i in range(3)]
+    out[3, 3] = ONE
+    x, y, z = m[:3, 3]
+    if x or y or z:
+        c1, c2, c3 = linear.T
+        out[:3, 3] = -((x * c1 + y * c2) + z * c3)
     return out
 
 
