@@ -7,23 +7,16 @@ drawn draws them first.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from softshadow import tokens as gl
+from softshadow.context.command_stream import CommandStream
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.primitive import Deferred, Primitive
 from softshadow.context.state_groups import UNDRAWN, Followed, Group, StateGroups, affects_draws
 from softshadow.context.vertex_buffer import VertexBuffer
 from softshadow.frozen import evolve
-from softshadow.pipeline.commands import Draw
 from softshadow.state import Lighting, State
-
-
-class CollectedText(Protocol):
-    """Bitmaps in a row, which are drawn together (`softshadow.gl.bitmaps`)."""
-
-    def command(self) -> Draw:
-        """Return the draw of all of them."""
 
 
 class ChangingState:
@@ -47,7 +40,7 @@ class ChangingState:
     primitive: Primitive | None  # between glBegin and glEnd
     deferred: Deferred | None  # while there is one, stand-ins take the places of `pending` and `vertex_buffer`
     vertex_buffer: VertexBuffer  # immediate mode
-    text: CollectedText | None  # bitmaps that are collected; they come before the collected vertices
+    stream: CommandStream  # its bitmaps come before the collected vertices
 
     def flush(self) -> None:
         """Draw the collected bitmaps and vertices."""
@@ -62,7 +55,7 @@ class ChangingState:
         """Whether vertices or bitmaps are collected, or attributes wait for the next change of the state."""
         if self.deferred is not None:
             return True
-        return bool(self.vertex_buffer.sizes or self.pending.reset_due or self.text is not None)
+        return bool(self.vertex_buffer.sizes or self.pending.reset_due or self.stream.text is not None)
 
     @property
     def state(self) -> State:

@@ -1,12 +1,12 @@
-"""The current context: state, matrices, bound objects, and the recording of every command.
+"""The current context: state, matrices and bound objects.
 
-`softshadow.gl` defines the calls and checks their arguments; this module carries them out.
+`softshadow.gl` defines the calls and checks their arguments. What they draw goes through the context's command stream.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from itertools import groupby
 from operator import itemgetter
 from typing import Any
@@ -16,12 +16,11 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context.arrays import BufferObject, ClientArrays
 from softshadow.context.color_indices import ColorIndices
+from softshadow.context.command_stream import CommandStream
 from softshadow.context.current_values import CurrentValues, CurrentVertex
 from softshadow.context.display_list import DisplayList
 from softshadow.context.evaluators import EvaluatorSettings, initial_maps
 from softshadow.context.kept_materials import with_kept_materials
-from softshadow.context.late_draws import LateDraw, LateDraws, MovedDraw
-from softshadow.context.line_pattern import LinePattern
 from softshadow.context.matrix_stacks import MatrixStack
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.precision import Precision
@@ -30,13 +29,10 @@ from softshadow.context.render_mode import RenderMode
 from softshadow.context.state_groups import StateGroups
 from softshadow.context.vertex_buffer import Primitive, VertexBuffer
 from softshadow.errors import StateError
-from softshadow.framebuffer import Storage, default_framebuffer
+from softshadow.framebuffer import Storage
 from softshadow.frozen import evolve
 from softshadow.image import Format, Image
 from softshadow.pipeline.commands import NO_UNIFORMS, Command, Draw, Origin, Vertices, draws_like, moved_draws
-from softshadow.pipeline.draw_kinds import changes_cells_only
-from softshadow.pipeline.execute import execute
-from softshadow.pipeline.queue import DrawQueue
 from softshadow.pixel_store import PixelStore
 from softshadow.pixel_transfer import PixelTransfer
 from softshadow.programs import Program
@@ -78,15 +74,14 @@ class Context(CurrentValues, Precision):
             raise ValueError(f"polygon_offset_slope={polygon_offset_slope!r}: expected 'max', 'length' or 'slide'")
         if polygon_offset_unit not in ("mesa", "spec"):
             raise ValueError(f"polygon_offset_unit={polygon_offset_unit!r}: expected 'mesa' or 'spec'")
-        self._frame = Frame((width, height), depth_format, stencil_bits, precision, history_bytes=history_bytes)
-        self.objects = self._frame.fresh_storage()
-        self._waiting = DrawQueue(self.objects, compiles)
+        frame = Frame((width, height), depth_format, stencil_bits, precision, history_bytes=history_bytes)
+        self.stream = CommandStream(frame, self, compiles)
+        self.objects = self.stream.objects
         self.raise_errors = raise_errors
         # no list is compiled, no primitive is open, nothing is collected: a call may change the state at once.
         # Not always True then, but always False otherwise.
         self.ready = False
         self.before: Context | None = None  # the context that a with statement restores
-        self.gate: Callable[[Command], bool] | None = None  # asked whether a command is carried out; None: all are
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
@@ -109,23 +104,18 @@ class Context(CurrentValues, Precision):
         self.open_step: str | None = None  # title of a step that has begun
         self.primitive: Primitive | None = None  # between glBegin and glEnd
         # immediate mode
-        self.late = LateDraws(self)
-        self.vertex_buffer = VertexBuffer(self._carry_out, self._carry_out_alike, self.add_late, self.objects)
+        self.vertex_buffer = VertexBuffer(self.stream)
         self.deferred = None
         self.deferred_before: Any = None  # what `deferred` was before, to be used again
-        self.text = None
         self.arrays = ClientArrays()
         self.client_stack: list[Any] = []
         self._offset_slope, self._offset_unit = polygon_offset_slope, polygon_offset_unit
-        self._line_pattern = LinePattern(self.objects)
         self.buffers: dict[int, BufferObject] = {}
         self.attribute_stack: list[Any] = []
         # the state at the last glPushAttrib or glPopAttrib; bits of the groups that calls have marked as changed since,
         # and between the push that the next pop belongs to and the last pop
         self.state_at_push, self.touched, self.touched_before = self.state, 0, 0
         self.others_at_push: tuple[Any, ...] | None = None  # attributes outside the state, while none is marked
-        # texture units, and the samplers of the textures bound to them; None after a change of a texture
-        self.bound_samplers: tuple[Any, Any] | None = None
         self.pending = PendingAttributes()
         # texture matrices and coordinates, and their products at the last raster position
         self.raster_texcoords: tuple[Any, Any, tuple[tuple[float, ...], ...]] | None = None
@@ -164,23 +154,13 @@ class Context(CurrentValues, Precision):
 
         Collected vertices of immediate mode are not drawn to it yet: `flush` first.
         """
-        if self.text is not None:
-            self._draw_text()
-        if self.late.draws:
-            self._draw_late()
-        self._waiting.carry_out()
-        return self.objects
-
-    def passed_fragments(self, query: int) -> int:
-        """Return how many fragments an ended occlusion query has counted; draws that it does not count may wait."""
-        self._waiting.finish_query(query)
-        return self.objects.queries[query]
+        return self.stream.objects_after_all()
 
     @property
     def frame(self) -> Frame:
         """The recording, after drawing everything that is still collected."""
         self.flush()
-        return self._frame
+        return self.stream.frame
 
     # -- matrices and units --------------------------------------------------------------------------------------------
     def select_matrices(self, mode: int) -> None:
@@ -210,19 +190,19 @@ class Context(CurrentValues, Precision):
     def execute(self, command: Command) -> None:
         """Carry out a command, then record it; a command that raises is not recorded."""
         self.flush()
-        self._carry_out(command)
+        self.stream.carry_out(command)
 
     def flush(self) -> None:
         """Draw what is collected, and what is late. Between glBegin and glEnd nothing is collected."""
         self.separate()
-        if self.late.draws:
-            self._draw_late()
+        if self.stream.late.draws:
+            self.stream.draw_late()
 
     def separate(self) -> None:
         """Draw what is collected, maybe later: later pairs are not joined to it. Not between glBegin and glEnd."""
         if self.primitive is None:
-            if self.text is not None:
-                self._draw_text()
+            if self.stream.text is not None:
+                self.stream.draw_text()
             self.flush_vertices()
 
     def flush_vertices(self) -> None:
@@ -239,99 +219,21 @@ class Context(CurrentValues, Precision):
     def finish(self) -> None:
         """Draw the collected vertices, and carry out the draws that wait: then the buffers can be read."""
         self.flush()
-        self._waiting.carry_out()
+        self.stream.carry_out_waiting()
 
     def note_shared_changes(self) -> None:
         """Note that another context may have changed the objects that both share."""
-        self._line_pattern.find_place()
-        self._waiting.forget()
-        self.bound_samplers = None
-
-    def _draw_text(self) -> None:
-        text, self.text = self.text, None
-        if text is not None:
-            self._carry_out(text.command())
-
-    def add_late(self, draw: LateDraw | MovedDraw) -> None:
-        """Let a draw wait."""
-        if self.text is not None:
-            self._draw_text()
-        if self.late.add(draw):
-            self._draw_late()
-
-    def _draw_late(self) -> None:
-        """Carry out and record the draws that are late."""
-        for draws, memory in self.late.take():
-            self._carry_out_several(draws, self._waiting.add_like, memory)
-
-    def _carry_out(self, command: Command) -> None:
-        if self.text is not None:
-            self._draw_text()
-        if self.late.draws:
-            self._draw_late()
-        if self.gate is not None and not self.gate(command):
-            return
-        if type(command) is Draw and command.state.lines.stippled:
-            command = self._line_pattern.continued(command)
-        if type(command) is not Draw:
-            only_cells = changes_cells_only(command, self.objects)
-            if not only_cells:
-                self._line_pattern.find_place()
-                self.bound_samplers = None
-            self._waiting.add_other(command, only_cells)
-        elif not self._waiting.add(command):
-            execute(command, self.objects)
-        if self._frame.append(command):
-            self._frame.shorten(self.storage)
-
-    def _carry_out_alike(self, commands: Sequence[Draw]) -> None:
-        """Carry out and record draws that differ from the first one in vertices and indices only."""
-        if self.late.draws:
-            self._draw_late()
-        self._carry_out_several(commands, self._waiting.add_alike)
-
-    def _carry_out_several(
-        self,
-        commands: Sequence[Draw],
-        add: Callable[[Sequence[Draw]], int],
-        memory: Sequence[np.ndarray] | None = None,
-    ) -> None:
-        """Carry out and record draws; `add` lets some of them wait. For `memory` see `Frame.extend`."""
-        n_done = 0
-        if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
-            n_done = add(commands)
-            if not n_done:
-                execute(commands[0], self.objects)
-                n_done = 1
-            if self._frame.extend(commands[:n_done], memory):
-                self._frame.shorten(self.storage)
-        for command in commands[n_done:]:
-            self._carry_out(command)
-
-    def carry_out(self, commands: Sequence[Command]) -> None:
-        """Carry out and record commands that the gate has kept back."""
-        gate, self.gate = self.gate, None
-        try:
-            for command in commands:
-                self._carry_out(command)
-        finally:
-            self.gate = gate
+        self.stream.forget()
 
     def begin_recording(self) -> None:
         """Let the recording begin here, with all buffers and textures as they are now."""
         self.flush()
-        self._frame.begin(self.storage)
+        self.stream.frame.begin(self.storage)
 
     def resize(self, width: int, height: int) -> None:
         """Replace the window by a cleared one of another size; the recording begins with it."""
         self.finish()
-        self._line_pattern.find_place()
-        self._waiting.forget()
-        before, frame = self.objects.window, self._frame
-        window = default_framebuffer(width, height, frame.depth_format, frame.stencil_bits, frame.precision)
-        window.draw_buffers, window.read_buffer = before.draw_buffers, before.read_buffer
-        self.objects.framebuffers[window.name], self.objects.visibility_cache = window, None
-        frame.size = width, height
+        self.stream.replace_window(width, height)
         self.begin_recording()
 
     def draw(self, mode: int, vertices: Vertices, indices: np.ndarray | None = None, pairs_mode: int = 0) -> Draw:
@@ -349,7 +251,7 @@ class Context(CurrentValues, Precision):
         command = self.draw_command(mode, self._with_current(vertices), indices)
         if pairs_mode:
             command = command._replace(pairs_mode=pairs_mode)
-        self._carry_out(command)
+        self.stream.carry_out(command)
         return command
 
     def draw_like(self, before: Draw, others: Iterable[tuple[int, Vertices, np.ndarray | None]]) -> None:
@@ -359,7 +261,7 @@ class Context(CurrentValues, Precision):
         """
         for mode, same in groupby(others, itemgetter(0)):
             with_current = [(self._with_current(vertices), indices) for _, vertices, indices in same]
-            self._carry_out_alike(draws_like(before._replace(mode=mode), *zip(*with_current, strict=True)))
+            self.stream.carry_out_alike(draws_like(before._replace(mode=mode), *zip(*with_current, strict=True)))
 
     def draw_moved(self, before: Draw, others: Iterable[tuple[Vertices, np.ndarray | None, np.ndarray, int]]) -> None:
         """Draw other primitives like those of the latest draw, of which only the modelview matrix has changed since.
@@ -367,7 +269,7 @@ class Context(CurrentValues, Precision):
         `others` are vertices with arrays of the same attributes, indices, modelview matrices and their kinds.
         """
         draws = moved_draws(before, [(self._with_current(each[0]), each[1], each[2], each[3]) for each in others])
-        self._carry_out_several(draws, self._waiting.add_like)
+        self.stream.carry_out_moved(draws)
 
     def _with_current(self, vertices: Vertices) -> Vertices:
         """Return vertices with the current edge flag, secondary colour and fog coordinate, where they have no array."""
@@ -427,7 +329,8 @@ class Context(CurrentValues, Precision):
     def end_step(self, title: str) -> None:
         """Mark the end of a step in the recording."""
         self.flush()
-        self._frame.steps.append((title, len(self._frame.commands)))
+        frame = self.stream.frame
+        frame.steps.append((title, len(frame.commands)))
 
     def begin_step(self, title: str) -> None:
         """Begin a step, which ends where the next one begins; what was drawn before the first one is a step, too."""

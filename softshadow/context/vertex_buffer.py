@@ -6,15 +6,15 @@ driver (`softshadow.pipeline.mesa.driver_draws`), and so some bits of the image.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import dropwhile, groupby
 from operator import attrgetter
 from typing import NamedTuple
 
+from softshadow.context.command_stream import CommandStream
 from softshadow.context.joined_pairs import JoinedPairs
 from softshadow.context.late_draws import LateDraw
 from softshadow.context.primitive import Primitive
-from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import offset_mode_of
 from softshadow.pipeline.mesa.driver_draws import (
@@ -66,21 +66,11 @@ class VertexBuffer:
 
     Parameters
     ----------
-    carry_out : callable     executes and records a draw
-    carry_out_alike : callable    the same with several, which differ in their vertices only
-    add_late : callable      lets a draw wait for its arrays
-    storage : Storage        buffers to draw to: a driver's draw chooses its polygon offset by them
+    stream : CommandStream   carries out the draws; by its buffers a driver's draw chooses its polygon offset
     """
 
-    def __init__(
-        self,
-        carry_out: Callable[[Draw], None],
-        carry_out_alike: Callable[[Sequence[Draw]], None],
-        add_late: Callable[[LateDraw], None],
-        storage: Storage,
-    ) -> None:
-        self._carry_out, self._carry_out_alike, self._add_late = carry_out, carry_out_alike, add_late
-        self._storage = storage
+    def __init__(self, stream: CommandStream) -> None:
+        self._stream = stream
         self.sizes: dict[str, int] = {}
         self.active_sizes: dict[str, int] = {}
         self.expected, self._n_waits, self._waits = NO_FORMAT, 0, 0
@@ -102,7 +92,7 @@ class VertexBuffer:
         """Draw at once; consecutive draws of one mode are one draw of the driver."""
         driver_draw = self._part_of(command.called_mode)
         if not driver_draw.is_lost:
-            self._carry_out(driver_draw.part(command, self._offset_mode_of))
+            self._stream.carry_out(driver_draw.part(command, self._offset_mode_of))
 
     def _part_of(self, mode: int) -> DriverDraw:
         """Return the driver's draw that a draw of a mode belongs to."""
@@ -125,13 +115,13 @@ class VertexBuffer:
             if self.driver_draw.is_lost and self.driver_draw.mode == modes[0]:
                 commands = list(dropwhile(lambda command: command.called_mode == modes[0], commands))
             for _, same in groupby(commands, attrgetter("mode")):
-                self._carry_out_alike(list(same))
+                self._stream.carry_out_alike(list(same))
             self._part_of(modes[-1])
         if self.pairs.add_several(modes[-1], counts) >= MAX_PAIRS:
             self.submit()
 
     def _offset_mode_of(self, draw: Draw) -> int:
-        return offset_mode_of(draw, self._storage)
+        return offset_mode_of(draw, self._stream.objects)
 
     def can_join(self, mode: int) -> bool:
         """Return whether vertices of a mode can be joined to the pairs that are not drawn yet."""
@@ -165,7 +155,7 @@ class VertexBuffer:
                 if not isinstance(command, LateDraw):
                     self.draw(command)
                 elif not self._part_of(command.form.like.mode).is_lost:
-                    self._add_late(command)
+                    self._stream.add_late(command)
 
     def submit(self) -> None:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""

@@ -94,7 +94,7 @@ def glPushAttrib(mask: int) -> None:
             state = context.drawn_state
         current, samplers = context.current, NO_SAMPLERS
         if mask & gl.GL_TEXTURE_BIT:
-            known = context.bound_samplers
+            known = context.stream.bound_samplers
             samplers = (
                 known[1] if known is not None and known[0] is state.units else _bound_samplers(context, state.units)
             )
@@ -150,7 +150,7 @@ def _bound_samplers(context: Context, units: tuple[TextureUnit, ...]) -> dict[tu
             samplers[target, key] = textures[key].sampler
         elif key <= 0:  # a default texture (name 0) always exists in GL; the storage creates it at its first use
             samplers[target, key] = initial_sampler(target)
-    context.bound_samplers = units, samplers
+    context.stream.bound_samplers = units, samplers
     return samplers
 
 

@@ -226,14 +226,14 @@ def _bitmap(
 
 def _draw(context: Context, pixels: PixelQuads, left: int, bottom: int) -> None:
     """Draw a bitmap, a small one together with those that follow; one outside of the window has no fragments."""
-    text = context.text if isinstance(context.text, Text) else None
+    text = context.stream.text if isinstance(context.stream.text, Text) else None
     if pixels.is_outside(left, bottom, text.size if text is not None else _size_of_target(context)):
         return
     if text is not None and text.add(context, pixels, left, bottom):
         return
     context.flush()
-    if pixels.is_small and context.gate is None:
-        context.text, context.ready = Text(context, pixels, left, bottom), False
+    if pixels.is_small and context.stream.gate is None:
+        context.stream.text, context.ready = Text(context, pixels, left, bottom), False
     else:
         context.execute(draw_of_pixels(context, pixels, left, bottom))
 

@@ -67,7 +67,7 @@ class DeferredPair:
     def begin(self, mode: int) -> bool:
         """Begin a pair; return False, and do nothing, if its calls must do their work at once."""
         context, pending, expected = self._context, self._pending, self._buffer.expected
-        if pending.names or pending.hidden or pending.reset_due or context.text is not None:
+        if pending.names or pending.hidden or pending.reset_due or context.stream.text is not None:
             return False
         if context.list_depth or context.executes_list or not self._buffer.expects_alike(FEW):
             return False
@@ -124,7 +124,7 @@ class DeferredPair:
         context, buffer, pending, expected = self._context, self._buffer, self._pending, self._format
         self._restore()
         assert self._draw is not None
-        context.add_late(self._draw)
+        context.stream.add_late(self._draw)
         buffer.note_drawn(expected, len(self._primitive.positions) // 4)
         if pending.names:
             context.reset_attributes()

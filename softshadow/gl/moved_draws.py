@@ -35,11 +35,11 @@ def draw_maybe_later(
     if len(vertices.position) > MOST_VERTICES:
         context.draw_prepared(mode, vertices, indices, pairs_mode)
         return
-    earlier = context.late.earlier
+    earlier = context.stream.late.earlier
     key = mode, pairs_mode, id(context.drawn_state), slots
     before = earlier.get(key)
     if before is not None and _is_continued(context, before):
-        context.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
+        context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
         return
     command = context.draw_prepared(mode, vertices, indices, pairs_mode)
     if _may_be_continued(context, command):
@@ -69,7 +69,7 @@ def _may_be_continued(context: Context, command: Draw) -> bool:
 
 def is_unmarked(context: Context) -> bool:
     """Return whether draws belong to no debug group, have no origin, and nobody is asked whether to make them."""
-    return not context.labels and context.origin is None and context.gate is None
+    return not context.labels and context.origin is None and context.stream.gate is None
 
 
 __all__ = ["draw_maybe_later", "is_unmarked"]

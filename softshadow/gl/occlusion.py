@@ -100,7 +100,7 @@ def _result(operation: str, id: int, pname: int, params: Any) -> Any:
         return None
     if name not in context.query_targets or name == context.objects.active_query:
         return fail(gl.GL_INVALID_OPERATION, operation, f"id={id}: expected a query that has been ended")
-    n_passed = context.passed_fragments(name)
+    n_passed = context.stream.passed_fragments(name)
     any_passed = context.query_targets[name] == gl.GL_ANY_SAMPLES_PASSED
     answers = {gl.GL_QUERY_RESULT: min(n_passed, 1) if any_passed else n_passed, gl.GL_QUERY_RESULT_AVAILABLE: 1}
     if not is_one_of(operation, "pname", pname, answers, "GL_QUERY_RESULT or GL_QUERY_RESULT_AVAILABLE"):

@@ -79,7 +79,7 @@ def form_of(context: Context, mode: int, carried: Iterable[str]) -> LateForm | N
     They are not where they may fail, where someone is told about them, where they depend on what a later call may
     change, or where their vertices have attributes that not all `Vertices` have. `carried` are those they carry.
     """
-    state, current, late = context.drawn_state, context.current, context.late
+    state, current, late = context.drawn_state, context.current, context.stream.late
     if not is_unmarked(context):
         return None
     key = mode, id(state), *carried

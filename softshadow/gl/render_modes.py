@@ -30,7 +30,7 @@ def install_gate(context: Context) -> None:
     if context.render_mode.has_gate:
         return
     context.render_mode.has_gate = True
-    before, modes = context.gate, context.render_mode
+    before, modes = context.stream.gate, context.render_mode
 
     def is_carried_out(command: Command) -> bool:
         if isinstance(command, Draw | Clear | Accumulate) and modes.mode != gl.GL_RENDER:
@@ -43,7 +43,7 @@ def install_gate(context: Context) -> None:
                 return False
         return before is None or before(command)
 
-    context.gate = is_carried_out
+    context.stream.gate = is_carried_out
 
 
 def _take(context: Context, command: Draw) -> None:

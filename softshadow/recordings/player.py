@@ -152,7 +152,7 @@ class Player:
             context = Context(*self._size_of(address), history_bytes=HISTORY_BYTES, compiles=False)
             self._share_objects(address, context)
             self._contexts[address] = TracedContext(context)
-            context.gate = self._gate(self._contexts[address])
+            context.stream.gate = self._gate(self._contexts[address])
         return self._contexts[address]
 
     def _share_objects(self, address: int, context: Context) -> None:

@@ -95,7 +95,7 @@ class UnseenDraws:
         waiting = self._waiting
         self.drop()
         if waiting:
-            self.context.carry_out(waiting)
+            self.context.stream.carry_out_kept(waiting)
 
 
 def buffers_cleared(command: Clear, size: tuple[int, int]) -> int:

@@ -74,12 +74,12 @@ class Desktop:
         if self.frame >= self.n_frames:
             raise ProgramEnded
         self.context.finish()
-        self.context.gate = self._begin_frame
+        self.context.stream.gate = self._begin_frame
 
     def _begin_frame(self, _: Command) -> bool:
         """Let the recording begin with a frame's first command: what ends before it has drawn the last frame."""
         assert self.context is not None
-        self.context.gate = None
+        self.context.stream.gate = None
         self.context.frame.begin(self.context.storage)
         return True
 

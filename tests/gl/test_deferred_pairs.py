@@ -221,4 +221,4 @@ def test_lit_pairs_in_the_current_colour_are_late(settles: bool) -> None:
                 assert context.state.lighting.color_material
             gl.glRectf(-0.5, -0.5, 0.5, 0.5)
             gl.glTranslatef(0.01, 0, 0)
-            assert len(context.late.draws) == number + 1
+            assert len(context.stream.late.draws) == number + 1

@@ -166,7 +166,7 @@ def triangle(*, then=lambda: None):
 
 
 def number_of(context):
-    return len(context.late.draws)
+    return len(context.stream.late.draws)
 
 
 def test_draws_under_matrices_of_their_own_are_late(context):
@@ -219,7 +219,7 @@ def test_many_numbers_do_not_wait(context, monkeypatch):
     assert number_of(context) == 1
     triangle()
     assert number_of(context) == 0
-    assert len(context._frame.commands) == 2
+    assert len(context.stream.frame.commands) == 2
 
 
 def test_a_large_pair_is_not_late(context):
@@ -229,7 +229,7 @@ def test_a_large_pair_is_not_late(context):
     gl.glEnd()
     gl.glTranslatef(1.0, 0.0, 0.0)
     assert number_of(context) == 0
-    assert len(context._frame.commands) == 1
+    assert len(context.stream.frame.commands) == 1
 
 
 def test_whoever_looks_inside_a_pair_sees_the_draws_before(context):

@@ -146,7 +146,7 @@ def test_array_that_changes_after_a_draw_that_waits():
         for _ in range(3):
             gl.glTranslatef(1, 1, 0)
             gl.glDrawArrays(gl.GL_QUADS, 0, 4)
-        assert len(context.late.draws) == 2
+        assert len(context.stream.late.draws) == 2
         corners[:] = 0
         drawn = context.storage.window.color.view[..., 0] if context.finish() is None else None
     assert (drawn > 0).sum() == 4 + 3 + 3
@@ -160,4 +160,4 @@ def test_large_draws_do_not_wait():
         for _ in range(3):
             gl.glTranslatef(1, 1, 0)
             gl.glDrawArrays(gl.GL_POINTS, 0, len(corners))
-        assert not context.late.draws
+        assert not context.stream.late.draws

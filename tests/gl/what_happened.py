@@ -95,13 +95,13 @@ def what_happened(calls: list[Call], precision: str, looks_after: Container[int]
                         buffer.joined_pairs is None,
                         context.error,
                         context.primitive is None,
-                        len(context._frame.commands) + len(context.late.draws),
+                        len(context.stream.frame.commands) + len(context.stream.late.draws),
                     ]
                 )
             )
         if context.primitive is not None:
             gl.glEnd()
         context.flush()
-        seen += [(type(command).__name__, bits(command)) for command in context._frame.commands]
+        seen += [(type(command).__name__, bits(command)) for command in context.stream.frame.commands]
         images = context.storage.window.attachments.values()
         return [*seen, *(image.image.view.tobytes() for image in images)]

@@ -10,7 +10,7 @@ import softshadow as ss
 from conftest import ALL_LANES
 from recordings.traced_program import TracedProgram
 from softshadow import gl
-from softshadow.context import Context
+from softshadow.context.command_stream import CommandStream
 from softshadow.recordings import unseen_draws
 from softshadow.recordings.unseen_draws import UnseenDraws
 
@@ -75,9 +75,11 @@ def cleared_program(n_frames: int) -> TracedProgram:
 
 def test_frames_before_a_clear_are_not_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     carried_out: list[int] = []
-    carry_out = Context.carry_out
+    carry_out = CommandStream.carry_out_kept
     monkeypatch.setattr(
-        Context, "carry_out", lambda self, commands: (carried_out.append(len(commands)), carry_out(self, commands))
+        CommandStream,
+        "carry_out_kept",
+        lambda self, commands: (carried_out.append(len(commands)), carry_out(self, commands)),
     )
     ss.replay(cleared_program(6).save(tmp_path), -1)
     assert carried_out == [2]  # of the last frame before the chosen one, which does not know that it will be cleared

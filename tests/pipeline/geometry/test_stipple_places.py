@@ -39,7 +39,7 @@ def test_patterns_go_on_where_the_draws_before_have_left_them(seed):
                 gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
         gl.glFinish()
         place, storage = 0, context.storage
-        for command in context._frame.commands:
+        for command in context.stream.frame.commands:
             if isinstance(command, Draw):
                 expected = command._replace(stipple_place=place)
                 ours, theirs = (process_geometry(each, storage.window, storage) for each in (command, expected))
@@ -57,7 +57,7 @@ def test_a_strip_that_begins_inside_does_not_ask():
                 gl.glVertex2f(x if y == 0 else 0.25, y)
             gl.glEnd()
         gl.glFinish()
-        draws = [command for command in context._frame.commands if isinstance(command, Draw)]
+        draws = [command for command in context.stream.frame.commands if isinstance(command, Draw)]
         products = [multiply(draw.projection, draw.modelview) for draw in draws]
         assert [*map(begins_stipple_anew, draws, products)] == [True, False]
 
@@ -82,7 +82,7 @@ def test_a_polygon_that_is_surely_drawn_does_not_ask():
         gl.glEdgeFlag(False)
         gl.glRectf(-0.5, -0.5, 0.5, 0.5)
         gl.glFinish()
-        draws = [command for command in context._frame.commands if isinstance(command, Draw)]
+        draws = [command for command in context.stream.frame.commands if isinstance(command, Draw)]
         products = [multiply(draw.projection, draw.modelview) for draw in draws]
         assert [*map(begins_stipple_anew, draws, products)] == [True] * 2 + [False] * 5
 

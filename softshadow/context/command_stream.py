@@ -1,0 +1,170 @@
+"""The commands of a context on their way to the buffers: some draws are late, some wait, and all are recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from softshadow.context.late_draws import LateDraw, LateDraws, MovedDraw
+from softshadow.context.line_pattern import LinePattern
+from softshadow.context.precision import Precision
+from softshadow.context.recording import Frame
+from softshadow.framebuffer import Storage, default_framebuffer
+from softshadow.pipeline.commands import Command, Draw
+from softshadow.pipeline.draw_kinds import changes_cells_only
+from softshadow.pipeline.execute import execute
+from softshadow.pipeline.queue import DrawQueue
+
+
+class CollectedText(Protocol):
+    """Bitmaps in a row, which are drawn together (`softshadow.gl.bitmaps`)."""
+
+    def command(self) -> Draw:
+        """Return the draw of all of them."""
+
+
+class CommandStream:
+    """Carries out and records the commands of a context, in the order of its calls.
+
+    Small draws are late at first: their arrays are made when there are many of them, or when another command comes.
+    Then most draws wait in a queue, until someone looks at the buffers.
+
+    Parameters
+    ----------
+    frame : Frame            the recording, still empty
+    precision : Precision    makes the arrays of late draws
+    compiles : bool          whether to compile the kernels for runs of draws at their first use
+
+    Attributes
+    ----------
+    frame : Frame
+    objects : Storage        what the commands draw to, before the draws that wait
+    late : LateDraws
+    text : CollectedText or None    comes behind the late draws, and before all that follows
+    gate : callable or None  is asked whether a command is carried out; None: all are
+    bound_samplers : tuple or None  texture units, and the samplers of the textures bound to them; None after a change
+                             of a texture
+    """
+
+    def __init__(self, frame: Frame, precision: Precision, compiles: bool) -> None:
+        self.frame, self.objects = frame, frame.fresh_storage()
+        self.late = LateDraws(precision)
+        self.text: CollectedText | None = None
+        self.gate: Callable[[Command], bool] | None = None
+        self.bound_samplers: tuple[Any, Any] | None = None
+        self._queue = DrawQueue(self.objects, compiles)
+        self._line_pattern = LinePattern(self.objects)
+
+    def carry_out(self, command: Command) -> None:
+        """Carry out and record a command; one that raises is not recorded."""
+        if self.text is not None:
+            self.draw_text()
+        if self.late.draws:
+            self.draw_late()
+        if self.gate is not None and not self.gate(command):
+            return
+        if type(command) is Draw and command.state.lines.stippled:
+            command = self._line_pattern.continued(command)
+        if type(command) is not Draw:
+            only_cells = changes_cells_only(command, self.objects)
+            if not only_cells:
+                self._line_pattern.find_place()
+                self.bound_samplers = None
+            self._queue.add_other(command, only_cells)
+        elif not self._queue.add(command):
+            execute(command, self.objects)
+        if self.frame.append(command):
+            self.frame.shorten(self.objects_after_all())
+
+    def carry_out_alike(self, commands: Sequence[Draw]) -> None:
+        """Carry out and record draws that differ from the first one in vertices and indices only."""
+        if self.late.draws:
+            self.draw_late()
+        self._carry_out_several(commands, self._queue.add_alike)
+
+    def carry_out_moved(self, commands: Sequence[Draw], memory: Sequence[np.ndarray] | None = None) -> None:
+        """Carry out and record draws that differ from the first one in vertices, indices and modelview matrix only.
+
+        No draw is late. For `memory` see `Frame.extend`.
+        """
+        self._carry_out_several(commands, self._queue.add_like, memory)
+
+    def _carry_out_several(
+        self,
+        commands: Sequence[Draw],
+        add: Callable[[Sequence[Draw]], int],
+        memory: Sequence[np.ndarray] | None = None,
+    ) -> None:
+        """Carry out and record draws; `add` lets some of them wait."""
+        n_done = 0
+        if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
+            n_done = add(commands)
+            if not n_done:
+                execute(commands[0], self.objects)
+                n_done = 1
+            if self.frame.extend(commands[:n_done], memory):
+                self.frame.shorten(self.objects_after_all())
+        for command in commands[n_done:]:
+            self.carry_out(command)
+
+    def carry_out_kept(self, commands: Sequence[Command]) -> None:
+        """Carry out and record commands that the gate has kept back."""
+        gate, self.gate = self.gate, None
+        try:
+            for command in commands:
+                self.carry_out(command)
+        finally:
+            self.gate = gate
+
+    def add_late(self, draw: LateDraw | MovedDraw) -> None:
+        """Let a draw be late."""
+        if self.text is not None:
+            self.draw_text()
+        if self.late.add(draw):
+            self.draw_late()
+
+    def draw_text(self) -> None:
+        """Carry out and record the bitmaps that are collected."""
+        text, self.text = self.text, None
+        if text is not None:
+            self.carry_out(text.command())
+
+    def draw_late(self) -> None:
+        """Carry out and record the draws that are late."""
+        for draws, memory in self.late.take():
+            self.carry_out_moved(draws, memory)
+
+    def carry_out_waiting(self) -> None:
+        """Carry out the draws that wait in the queue."""
+        self._queue.carry_out()
+
+    def objects_after_all(self) -> Storage:
+        """Return the objects after all draws, also the late ones and the bitmaps."""
+        if self.text is not None:
+            self.draw_text()
+        if self.late.draws:
+            self.draw_late()
+        self._queue.carry_out()
+        return self.objects
+
+    def passed_fragments(self, query: int) -> int:
+        """Return how many fragments an ended occlusion query has counted; draws that it does not count may wait."""
+        self._queue.finish_query(query)
+        return self.objects.queries[query]
+
+    def forget(self) -> None:
+        """Forget what is known of the objects; no draw waits."""
+        self._line_pattern.find_place()
+        self._queue.forget()
+        self.bound_samplers = None
+
+    def replace_window(self, width: int, height: int) -> None:
+        """Replace the window by a cleared one of another size; no draw waits."""
+        self.forget()
+        before, frame = self.objects.window, self.frame
+        window = default_framebuffer(width, height, frame.depth_format, frame.stencil_bits, frame.precision)
+        window.draw_buffers, window.read_buffer = before.draw_buffers, before.read_buffer
+        self.objects.framebuffers[window.name], self.objects.visibility_cache = window, None
+        frame.size = width, height
