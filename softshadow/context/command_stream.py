@@ -142,10 +142,8 @@ class CommandStream:
 
     def objects_after_all(self) -> Storage:
         """Return the objects after all draws, also the late ones and the bitmaps."""
-        if self.text is not None:
-            self.draw_text()
-        if self.late.draws:
-            self.draw_late()
+        self.draw_text()
+        self.draw_late()
         self._queue.carry_out()
         return self.objects
 

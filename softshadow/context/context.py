@@ -221,10 +221,6 @@ class Context(CurrentValues, Precision):
         self.flush()
         self.stream.carry_out_waiting()
 
-    def note_shared_changes(self) -> None:
-        """Note that another context may have changed the objects that both share."""
-        self.stream.forget()
-
     def begin_recording(self) -> None:
         """Let the recording begin here, with all buffers and textures as they are now."""
         self.flush()
@@ -386,6 +382,6 @@ def make_current(context: Context | None) -> Context | None:
         before.flush()
         if context and context is not before and context.objects.textures is before.objects.textures:
             before.finish()
-            context.note_shared_changes()
+            context.stream.forget()  # `before` may have changed the objects that both share
     thread.context = context or _Thread.context
     return before
