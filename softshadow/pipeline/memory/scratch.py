@@ -5,9 +5,9 @@ The pages of a large new array come from the operating system one by one, when t
 """
 
 import math
-import sys
 import threading
-from collections import deque
+import weakref
+from typing import Any
 
 import numpy as np
 
@@ -15,25 +15,32 @@ SMALLEST = 1 << 16  # bytes; below, the allocator reuses memory by itself
 LARGEST_NUMBER = 16  # bytes of any dtype here
 LINE = 128  # bytes; two cache lines, which processors fetch together
 POOLED = 128 << 20  # bytes in the pool of each thread that draws
-_unused = deque([np.empty(0, np.uint8)])
-UNUSED_REFERENCES = sys.getrefcount(_unused[0])  # to a block that is not in use: the deque, and this call
 
 
-class _Blocks(threading.local):
-    """The memory blocks of one thread by size, a power of two."""
+class _Block(np.ndarray):
+    """Bytes of the pool.
+
+    The base of a view of an array in it is that array, not the block: NumPy passes over bases of its own type only.
+    """
+
+
+class _Pool(threading.local):
+    """The blocks of one thread that are not in use, by size, a power of two; `n_bytes` are those of all its blocks."""
 
     def __init__(self) -> None:
-        self.of_size: dict[int, deque[np.ndarray]] = {}
+        self.unused: dict[int, list[_Block]] = {}
+        self.n_bytes = 0
 
 
-_thread_blocks = _Blocks()
+_pool = _Pool()
+# for each array in use, what calls `_release` when it and its views are gone; its block, and the list that this enters
+_in_use: dict[int, tuple[weakref.ref[np.ndarray], _Block, list[_Block]]] = {}
 
 
 def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
     """Return an uninitialised array, like ``np.empty``, if possible in pooled memory.
 
-    A block is reused once its last reference is gone. Blocks that are found in use go to the end: caches use some for
-    long.
+    A block is used again once the array in it and the views of that are gone. Caches use some for long.
     """
     numbers = math.prod(shape) if isinstance(shape, tuple) else shape
     if numbers * LARGEST_NUMBER < SMALLEST:
@@ -43,17 +50,30 @@ def scratch(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndar
     if not SMALLEST <= size <= POOLED // 2:
         return np.empty(shape, kind)
     whole = 1 << (size - 1).bit_length()  # pages that are never written take no memory
-    of_size = _thread_blocks.of_size
-    blocks = of_size.get(whole)
-    if blocks is None:
-        blocks = of_size[whole] = deque()
-    for _ in range(len(blocks)):
-        if sys.getrefcount(blocks[0]) == UNUSED_REFERENCES:  # no variable for it: that would be one more reference
-            return np.ndarray(shape, kind, blocks[0])
-        blocks.rotate(-1)
-    _make_room(whole)
-    blocks.appendleft(np.empty(whole, np.uint8))
-    return np.ndarray(shape, kind, blocks[0])
+    unused = _pool.unused.get(whole) or _with_new_block(whole)
+    block = unused.pop()
+    array: np.ndarray = np.ndarray(shape, kind, block)
+    reference = weakref.ref(array, _release)
+    _in_use[id(reference)] = reference, block, unused
+    return array
+
+
+def _release(reference: Any) -> None:
+    _, block, unused = _in_use.pop(id(reference))
+    unused.append(block)
+
+
+def _with_new_block(size: int) -> list[_Block]:
+    """Return the unused blocks of a size, after one is added; all others leave the pool if they leave no room for it.
+
+    Those in use live as long as their arrays.
+    """
+    if _pool.n_bytes + size > POOLED:
+        _pool.unused, _pool.n_bytes = {}, 0
+    _pool.n_bytes += size
+    unused = _pool.unused.setdefault(size, [])
+    unused.append(_Block(size, np.uint8))
+    return unused
 
 
 def apart(shape: int | tuple[int, ...], dtype: np.typing.DTypeLike) -> np.ndarray:
@@ -84,11 +104,3 @@ def row_columns(end_row: int) -> np.ndarray:
     if _row_columns.arrays.shape[1] < end_row:
         _row_columns.arrays = apart((2, end_row), np.int32)
     return _row_columns.arrays
-
-
-def _make_room(size: int) -> None:
-    """Empty the pool if one more block does not fit; blocks in use live until their last reference is gone."""
-    of_size = _thread_blocks.of_size
-    if size + sum(each * len(blocks) for each, blocks in of_size.items()) > POOLED:
-        for blocks in of_size.values():
-            blocks.clear()

@@ -20,7 +20,7 @@ def address(array):
 
 @pytest.fixture
 def empty_pool(monkeypatch):
-    monkeypatch.setattr(module, "_thread_blocks", module._Blocks())
+    monkeypatch.setattr(module, "_pool", module._Pool())
 
 
 def test_memory_is_reused_once_nothing_refers_to_it(empty_pool):
