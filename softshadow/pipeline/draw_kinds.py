@@ -80,7 +80,7 @@ class Kinds:
 
     def __init__(self, storage: Storage, compiles: bool) -> None:
         self._storage, self._compiles = storage, compiles
-        # by the identity of what they depend on; the latest by all but tests, blending and clip planes
+        # by the identity of what they depend on; the latest by all but tests and blending
         self._known: dict[Hashable, list[Kind]] = {}
         self._latest: dict[Hashable, Kind] = {}
         # the latest, and a draw of it: by its `_form` and what of its state matters; by its form and the state's
@@ -144,14 +144,12 @@ class Kinds:
         return names
 
     def _with_other_tests(self, command: Draw, textures: Textures, target: Framebuffer) -> Kind | None:
-        """Return the kind of a draw by one that differs in tests, blending and clip planes only."""
+        """Return the kind of a draw by one that differs in tests and blending only."""
         similar = self._latest.get(_key_without_tests(command, textures))
         run = None if similar is None else similar.run.under(command)
         if similar is None or run is None:
             return None
         kind = similar._replace(run=run)
-        if run.user_planes is not similar.run.user_planes:
-            kind = kind._replace(batch=self._batch_of(run, similar.setting))
         if similar.run.has_tests_of(command.state):
             return kind
         return kind._replace(plan=plan_draw(command, target), counting=[])
@@ -218,7 +216,7 @@ def _form(command: Draw) -> Form:
 
 
 def _key_without_tests(command: Draw, textures: Textures) -> tuple[Hashable, ...]:
-    """Return by what to look for a kind that may differ in tests, blending and clip planes only."""
+    """Return by what to look for a kind that may differ in tests and blending only."""
     return key_of(command, with_tests=False), width_of(command.mode), textures
 
 

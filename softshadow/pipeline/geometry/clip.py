@@ -12,14 +12,17 @@ from softshadow.jit import inlined, kernel, read_only
 from softshadow.pipeline.constants import SMALLEST_NORMAL, ZERO
 from softshadow.pipeline.geometry.facing import vertices_of
 from softshadow.pipeline.memory.scratch import scratch
+from softshadow.state import ClipPlanes
 
 # plane k keeps a x + b y + c z + d w >= 0; the order is the order of clipping
 FRUSTUM = np.array([[-1, 0, 0, 1], [1, 0, 0, 1], [0, -1, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0, 0, -1, 1]], np.float32)
 NEAR_FAR = 0b110000
 FRUSTUM_PLANES = len(FRUSTUM)
+MOST_PLANES = FRUSTUM_PLANES + len(ClipPlanes().enabled)  # that cut a primitive
 INSIDE, CUT, OUTSIDE = 0, 1, 2  # sides of triangles
 NO_EDGES = np.empty((0, 3), np.uint8)
 NO_STAGES = np.empty(0, np.uint8)
+NO_STARTS = np.empty(0, np.int32)
 ADDED_PER_PLANE = 2  # a plane cuts a convex polygon in two new vertices
 
 
@@ -52,6 +55,7 @@ def clip_triangles(
     user_planes: np.ndarray,
     edges: np.ndarray = NO_EDGES,
     linear: bool = False,
+    starts: np.ndarray = NO_STARTS,
 ) -> Clipped:
     """Return the parts of the triangles inside the frustum and the user planes, in drawing order.
 
@@ -62,6 +66,7 @@ def clip_triangles(
     triangles : (T, 3) int32
     codes : (V,) int32, the `outcodes` of the vertices
     user_planes : (P, 4) in clip space; a vertex is kept where its dot product is not negative
+    starts : (T,) int32, the row of the first user plane of each triangle, where not all have the same; else empty
     edges : (T, 3) uint8, which edges of unfilled polygons are drawn; no rows for filled ones
     linear : whether values change linearly in the window, instead of in perspective
     """
@@ -72,7 +77,7 @@ def clip_triangles(
     write_sides(triangles, codes, 0, len(triangles), sides)
     n_inside, n_cut = int(np.count_nonzero(sides == INSIDE)), int(np.count_nonzero(sides == CUT))
     planes = all_clip_planes(user_planes, clip.dtype)
-    most_added = len(planes) * ADDED_PER_PLANE
+    most_added = min(len(planes), MOST_PLANES) * ADDED_PER_PLANE
     all_clip, all_values = clip, np.ascontiguousarray(values)  # always in C order: one compiled kernel
     if n_cut:
         all_clip = scratch((len(clip) + n_cut * most_added, 4), clip.dtype)
@@ -82,7 +87,7 @@ def clip_triangles(
     source = scratch(len(pieces), np.int32)
     piece_edges = scratch((len(pieces) if len(edges) else 0, 3), np.uint8)
     n_pieces, n_vertices = cut_triangles(
-        triangles, edges, codes, planes, all_clip, all_values, len(clip), pieces, source, piece_edges,
+        triangles, edges, codes, planes, starts, all_clip, all_values, len(clip), pieces, source, piece_edges,
         np.zeros((2, most_added + 3), np.int32), np.zeros((2, most_added + 3), np.uint8), int(linear),
     )  # fmt: skip
     return Clipped(
@@ -138,6 +143,12 @@ def write_sides(triangles, codes, first, end, sides):
         sides[t] = INSIDE if (a | b | c) == 0 else OUTSIDE if a & b & c else CUT
 
 
+@inlined
+def plane_row(p, starts, primitive):
+    """Return the row, among `all_clip_planes`, of the plane of bit `p` of a primitive's clip codes."""
+    return p + starts[primitive] if p >= FRUSTUM_PLANES and starts.shape[0] else p
+
+
 @kernel
 def distance(plane, position):
     """Return the distance of a position from a plane, times the length of the plane's normal."""
@@ -160,12 +171,13 @@ def weight_in_window(clip, first, second, new, t):
 
 @kernel
 def cut_triangles(
-    triangles, edges, codes, planes, clip, values, n_vertices, pieces, source, piece_edges, polygons, flags, linear
-):
+    triangles, edges, codes, planes, starts, clip, values, n_vertices, pieces, source, piece_edges, polygons, flags,
+    linear,
+):  # fmt: skip
     """Clip triangle by triangle (Sutherland & Hodgman 1974); new vertices are appended from row `n_vertices` on.
 
-    Return the number of pieces and the number of vertices. `polygons` and `flags` are scratch: two lists of vertex
-    numbers, and whether the edge that starts at each of them is drawn.
+    Return the number of pieces and the number of vertices. For `planes` and `starts` see `plane_row`. `polygons` and
+    `flags` are scratch: two lists of vertex numbers, and whether the edge that starts at each of them is drawn.
     """
     n_pieces, with_edges = 0, edges.shape[0] > 0
     for t in range(triangles.shape[0]):
@@ -186,10 +198,10 @@ def cut_triangles(
         if with_edges:
             flags[0, 0], flags[0, 1], flags[0, 2] = edges[t, 0], edges[t, 1], edges[t, 2]
         corners, current = np.int64(3), 0  # typed: for a literal, the cut would be compiled a second time
-        for p in range(planes.shape[0]):
+        for p in range(min(planes.shape[0], MOST_PLANES)):
             if union >> p & 1:
                 corners, n_vertices = cut_polygon(
-                    planes[p], p >= FRUSTUM_PLANES, polygons[current], flags[current], corners,
+                    planes[plane_row(p, starts, t)], p >= FRUSTUM_PLANES, polygons[current], flags[current], corners,
                     polygons[1 - current], flags[1 - current], clip, values, n_vertices, linear,
                 )  # fmt: skip
                 current = 1 - current

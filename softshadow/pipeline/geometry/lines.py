@@ -10,7 +10,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
-from softshadow.pipeline.geometry.clip import Clipped, all_clip_planes, distance
+from softshadow.pipeline.geometry.clip import MOST_PLANES, NO_STARTS, Clipped, all_clip_planes, distance, plane_row
 from softshadow.pipeline.geometry.facing import REACH
 from softshadow.pipeline.geometry.triangle_setup import empty_setup, line_gradient, line_plane, snap_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
@@ -34,7 +34,12 @@ def assemble_lines(mode: int, n_vertices: int) -> np.ndarray:
 
 
 def clip_lines(
-    clip: np.ndarray, values: np.ndarray, lines: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
+    clip: np.ndarray,
+    values: np.ndarray,
+    lines: np.ndarray,
+    codes: np.ndarray,
+    user_planes: np.ndarray,
+    starts: np.ndarray = NO_STARTS,
 ) -> Clipped:
     """Return the parts of the lines (L, 2) inside the frustum and the user planes, as `clip_triangles` does."""
     end_codes = codes[lines]
@@ -48,7 +53,7 @@ def clip_lines(
     pieces, source = np.empty((len(lines), 2), np.int32), np.empty(len(lines), np.int32)
     planes = all_clip_planes(user_planes, clip.dtype)
     n_pieces, n_vertices = cut_lines(
-        np.ascontiguousarray(lines), codes, planes, all_clip, all_values, len(clip), pieces, source
+        np.ascontiguousarray(lines), codes, planes, starts, all_clip, all_values, len(clip), pieces, source
     )
     return Clipped(
         np.ascontiguousarray(all_clip[:n_vertices]),
@@ -59,10 +64,11 @@ def clip_lines(
 
 
 @kernel
-def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
+def cut_lines(lines, codes, planes, starts, clip, values, n_vertices, pieces, source):
     """Clip line by line (Liang & Barsky 1984); new vertices are appended from row `n_vertices` on.
 
-    Return the number of pieces and the number of vertices. Each end is moved once, along the whole line.
+    Return the number of pieces and the number of vertices. Each end is moved once, along the whole line. For `planes`
+    and `starts` see `plane_row`.
     """
     n_pieces = 0
     for n in range(lines.shape[0]):
@@ -70,9 +76,10 @@ def cut_lines(lines, codes, planes, clip, values, n_vertices, pieces, source):
         union = codes[a] | codes[b]
         visible = codes[a] & codes[b] == 0
         from_a = from_b = ZERO
-        for p in range(planes.shape[0]):
+        for p in range(min(planes.shape[0], MOST_PLANES)):
             if visible and union >> p & 1:
-                distance_a, distance_b = distance(planes[p], clip[a]), distance(planes[p], clip[b])
+                plane = planes[plane_row(p, starts, n)]
+                distance_a, distance_b = distance(plane, clip[a]), distance(plane, clip[b])
                 if not (np.isfinite(distance_a) and np.isfinite(distance_b)):
                     visible = False
                 if distance_b < ZERO:

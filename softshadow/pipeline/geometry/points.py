@@ -8,7 +8,7 @@ import numpy as np
 
 from softshadow.jit import inlined, kernel
 from softshadow.pipeline.constants import HALF, ONE, SUBPIXEL_BITS, ZERO
-from softshadow.pipeline.geometry.clip import Clipped
+from softshadow.pipeline.geometry.clip import NO_STARTS, Clipped
 from softshadow.pipeline.geometry.facing import REACH
 from softshadow.pipeline.geometry.triangle_setup import empty_setup, snap_away
 from softshadow.pipeline.records import NO_VERTEX, Setup
@@ -19,7 +19,12 @@ ALL_TRUE = np.ones(4, np.bool_).view(np.uint32)[0]
 
 
 def clip_points(
-    clip: np.ndarray, values: np.ndarray, points: np.ndarray, codes: np.ndarray, user_planes: np.ndarray
+    clip: np.ndarray,
+    values: np.ndarray,
+    points: np.ndarray,
+    codes: np.ndarray,
+    user_planes: np.ndarray,
+    starts: np.ndarray = NO_STARTS,
 ) -> Clipped:
     """Return the points (P, 1) whose centre is inside the frustum and the user planes, as `clip_triangles` does."""
     # four truth values are compared as one number: `all(axis=1)` would take ten times as long

@@ -35,12 +35,12 @@ from softshadow.pipeline.fast.batch.lines_and_points import (
 )
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
-from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
-from softshadow.pipeline.fast.batch.vertices import END, VIEW, prepare_draws, process_vertices
+from softshadow.pipeline.fast.batch.table import REAL, Planes, Table, Views, planes_of, table_of, views_of
+from softshadow.pipeline.fast.batch.vertices import END, FIRST_PLANE, VIEW, prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.assembly import edge_flags, edges_of_joined_polygons
-from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, NO_STAGES, Clipped, clip_triangles, write_sides
+from softshadow.pipeline.geometry.clip import CUT, NO_EDGES, NO_STAGES, NO_STARTS, Clipped, clip_triangles, write_sides
 from softshadow.pipeline.geometry.draw_primitives import triangles_in_stages
 from softshadow.pipeline.geometry.geometry import (
     filled_geometry,
@@ -144,14 +144,14 @@ def geometry_of(
     With a `storage`, the triangles of a recent run are used again if they are the same.
     """
     recent = recent_of(storage) if _may_be_repeated(draws) else None
-    views = views_of(draws, target)
-    key = _key_of(run, setting, draws, views, target) if recent else ()
+    views, planes = views_of(draws, target), planes_of(draws)
+    key = _key_of(run, setting, draws, views, planes, target) if recent else ()
     known: RunTriangles | None = recent.look_up(key) if recent else None
     if known and setting.culled and known.clipped.in_stages is None:
         known = None
     if known and (known.cut is not None or not run.writes_color):
-        return _batch(_repeated_geometry(run, setting, draws, views, target, known))
-    table, most = table_of(run, draws, views), sum(map(primitives_of, draws))
+        return _batch(_repeated_geometry(run, setting, draws, views, planes, target, known))
+    table, most = table_of(run, draws, views, planes), sum(map(primitives_of, draws))
     n = len(table.positions)
     command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
     inputs = _inputs(table)
@@ -181,9 +181,10 @@ def geometry_of(
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if is_polygons:
         edges = NO_EDGES if is_filled else _drawn_edges(draws, triangles[:n_triangles])
-        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, run.user_planes, edges)
+        starts = _starts_of_planes(table, triangles[:n_triangles, 0])
+        clipped = clip_triangles(clip, columns, triangles[:n_triangles], codes, planes.rows, edges, starts=starts)
         if is_filled and setting.culled:
-            clipped = clipped.passing_stages(_in_stages(draws, codes, run.user_planes, triangles[:n_triangles]))
+            clipped = clipped.passing_stages(_in_stages(draws, codes, planes, triangles[:n_triangles]))
         if is_first:
             clipped = in_provoking_order(clipped, codes, triangles[:n_triangles])
         if is_small and not recent:
@@ -195,7 +196,8 @@ def geometry_of(
         sizes = sizes_of_points(run, draws) if width == 1 else None
         with_sizes = columns if sizes is None else np.hstack([columns, sizes[:, np.newaxis]])
         provoking = primitives[:, 0 if is_first else -1]
-        clipped = clip_primitives(clip, with_sizes, primitives, codes, run.user_planes)
+        starts = _starts_of_planes(table, primitives[:, 0])
+        clipped = clip_primitives(clip, with_sizes, primitives, codes, planes.rows, starts)
     window, of_pieces = outputs.window, provoking[clipped.source]
     if len(clipped.clip) > n:  # the new vertices of clipping come last
         new = np.empty_like(clipped.clip[n:])
@@ -252,16 +254,17 @@ def _drawn_edges(draws: Sequence[Draw], triangles: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(drawn & np.concatenate(flags)[triangles].view(np.uint8))
 
 
-def _in_stages(draws: Sequence[Draw], codes: np.ndarray, user_planes: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def _in_stages(draws: Sequence[Draw], codes: np.ndarray, planes: Planes, triangles: np.ndarray) -> np.ndarray:
     """Return which triangles (T, 3) of all draws pass Mesa's cull stage, (T,) uint8; empty for none."""
     if not codes.any():
         return NO_STAGES
     in_stages, start, first = np.zeros(len(triangles), np.uint8), 0, 0
-    for draw in draws:
+    for draw, first_plane, end_plane in zip(draws, planes.firsts, planes.ends, strict=True):
         end = start + len(draw.vertices.position)
         last = first + primitives_of(draw)
         if codes[start:end].any():
-            of_draw = triangles_in_stages(draw, codes[start:end], user_planes, triangles[first:last] - start)
+            own_planes = planes.rows[first_plane:end_plane]
+            of_draw = triangles_in_stages(draw, codes[start:end], own_planes, triangles[first:last] - start)
             in_stages[first : first + len(of_draw)] = of_draw
         start, first = end, last
     return in_stages
@@ -275,10 +278,20 @@ def _views_of_new(clipped: Clipped, provoking: np.ndarray, table: Table) -> np.n
     n = len(table.positions)
     if len(table.scales) == 1:
         return np.zeros(len(clipped.clip) - n, np.int64)
-    draws = np.searchsorted(table.numbers[:, END], provoking, side="right")
     views = np.zeros(len(clipped.clip), np.int64)
-    views[clipped.triangles] = table.numbers[draws, VIEW, np.newaxis]
+    views[clipped.triangles] = table.numbers[_draws_of(table, provoking), VIEW, np.newaxis]
     return views[n:]
+
+
+def _draws_of(table: Table, vertices: np.ndarray) -> np.ndarray:
+    """Return the number of the draw of each vertex."""
+    return np.searchsorted(table.numbers[:, END], vertices, side="right")
+
+
+def _starts_of_planes(table: Table, vertices: np.ndarray) -> np.ndarray:
+    """Return the row of the first clip plane of each primitive, by one of its vertices; empty if all have row 0."""
+    firsts = table.numbers[:, FIRST_PLANE]
+    return firsts[_draws_of(table, vertices)].astype(np.int32) if firsts.any() else NO_STARTS
 
 
 def _with_pieces(geometry: Geometry, clipped: Clipped, setting: Setting, table: Table) -> tuple[Geometry, int]:
@@ -300,17 +313,26 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     return sum([len(draw.vertices.position) for draw in draws]) >= sum(map(least_compared, draws))
 
 
-def _key_of(run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer) -> Hashable:
+def _key_of(
+    run: Run, setting: Setting, draws: Sequence[Draw], views: Views, planes: Planes, target: Framebuffer
+) -> Hashable:
     """Return what the triangles of a run depend on, but for its culling."""
     image = target.depth
     return (
-        *map(triangles_key, draws), window_key(run.command, target), *views.of_draws, views.scales.tobytes(),
-        views.shifts.tobytes(), repr(setting.offset), run.across, None if image is None else image.format,
+        *map(triangles_key, draws), window_key(run.command, target), *planes.ends, planes.rows.tobytes(),
+        *views.of_draws, views.scales.tobytes(), views.shifts.tobytes(), repr(setting.offset), run.across,
+        None if image is None else image.format,
     )  # fmt: skip
 
 
 def _repeated_geometry(
-    run: Run, setting: Setting, draws: Sequence[Draw], views: Views, target: Framebuffer, known: RunTriangles
+    run: Run,
+    setting: Setting,
+    draws: Sequence[Draw],
+    views: Views,
+    planes: Planes,
+    target: Framebuffer,
+    known: RunTriangles,
 ) -> Geometry:
     """Return the triangles of a run that has those of a recent one; vertices are lit anew, and triangles culled."""
     geometry, facing = known.geometry, (setting.culled, setting.positive_is_front)
@@ -321,7 +343,7 @@ def _repeated_geometry(
     geometry = geometry._replace(triangles=known.setups[facing])
     if not run.writes_color:
         return geometry
-    table = table_of(run, draws, views, reads_indices=False)
+    table = table_of(run, draws, views, planes, reads_indices=False)
     n = len(table.positions)
     outputs = _empty_outputs(n, table, setting)
     _write_outputs(table, _inputs(table), outputs)
@@ -329,7 +351,8 @@ def _repeated_geometry(
     if len(geometry.window) > n and known.cut is not None:
         cut, clip, codes = known.cut, outputs.clip, outputs.codes
         own = np.arange(len(cut), dtype=np.int32).reshape(-1, 3)
-        pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], run.user_planes)
+        starts = _starts_of_planes(table, cut[::3])
+        pieces = clip_triangles(clip[cut], columns[cut], own, codes[cut], planes.rows, starts=starts)
         columns = np.concatenate([columns, pieces.values[len(cut) :]])
     geometry = geometry._replace(flat=setting.flat, program=setting.program, uniforms=setting.uniforms)
     return _with_values(geometry, columns, outputs)

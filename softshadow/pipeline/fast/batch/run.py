@@ -1,8 +1,8 @@
 """Which draws form a run; its triangles equal `geometry.geometry.process_geometry`, see fast/test_batch.py.
 
-The draws of a run are processed together. They have the same state but for their lighting, viewport and scissor box, so
-they share a program of the fixed function and nearly all that happens to fragments. Their matrices, vertices, current
-attributes, viewports and lights differ, and the widths of lines and sizes of points.
+The draws of a run are processed together. They have the same state but for their lighting, clip planes, viewport and
+scissor box, so they share a program of the fixed function and nearly all that happens to fragments. Their matrices,
+vertices, current attributes, viewports and lights differ, and the widths of lines and sizes of points.
 """
 
 from __future__ import annotations
@@ -34,7 +34,6 @@ from softshadow.pipeline.fast.batch.vertices import (
     Layout,
 )
 from softshadow.pipeline.geometry.clip import NEAR_FAR
-from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.program import bound_textures
 from softshadow.pipeline.mesa.polygon_rules import effective_modes, is_stippled, passes_stages
 from softshadow.programs.fixed_function import (
@@ -47,17 +46,17 @@ from softshadow.programs.fixed_function import (
 )
 from softshadow.programs.inverse import UNKNOWN
 from softshadow.programs.texture_coordinates import IN_EYE_SPACE, needs_normals, reflects_r
-from softshadow.state import ClipPlanes, Lighting, Polygon, State
+from softshadow.state import Lighting, Polygon, State
 
-# lights and materials differ between the draws of a run; other viewports and scissor boxes begin a segment
-DIFFERENT = ("lighting", "viewport", "scissor", "read_framebuffer")
+# lights, materials and planes differ between the draws of a run; other viewports and scissor boxes begin a segment
+DIFFERENT = ("lighting", "clip_planes", "viewport", "scissor", "read_framebuffer")
 GROUPS = tuple(group.name for group in fields(State) if group.name not in DIFFERENT)
 _groups_of = attrgetter(*GROUPS)
-POLYGON, CLIP_PLANES = GROUPS.index("polygon"), GROUPS.index("clip_planes")
+POLYGON = GROUPS.index("polygon")
 # groups that concern fragments only, but for whether depths are clamped; alpha test and colour mask decide more
 OF_TESTS = ("stencil", "depth", "blend")
-OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in (*OF_TESTS, "clip_planes"))
-PLAIN_POLYGON, NO_CLIP_PLANES = Polygon(), ClipPlanes()
+OTHERS = tuple(number for number, group in enumerate(GROUPS) if group not in OF_TESTS)
+PLAIN_POLYGON = Polygon()
 NO_NAMES: frozenset[str] = frozenset()
 IDENTITY = np.eye(4, dtype=np.float32)
 IDENTITY_BYTES = IDENTITY.tobytes()
@@ -93,7 +92,7 @@ class Run:
     unfilled : bool          polygons are stippled, or drawn as their edges or corners (glPolygonMode)
     stippled : bool          lines are cut into pieces by a pattern
     across : bool            quads are cut along the other diagonal even without indices (`Varyings.flat_input`)
-    layout, generated, planes, user_planes : of its `Table`
+    layout, generated, planes : of its `Table`
     """
 
     def __init__(self, command: Draw, storage: Storage, writes_color: bool) -> None:
@@ -108,8 +107,7 @@ class Run:
         self.stippled = width_of(command.mode) == WIDTH_OF_LINES and is_stippled(self.state.lines)
         is_flat = writes_color and self.state.lighting.shade_model == gl.GL_FLAT
         self.generated, self.planes, in_eye_space = _generation(self)
-        self.user_planes = user_planes(command)
-        self._has_user_planes, self._fills = len(self.user_planes) > 0, is_filled(self.state.polygon)
+        self._fills = is_filled(self.state.polygon)
         self.layout = self._layout(in_eye_space)
         self.across = is_flat and (
             bool(self.lit and self.layout.secondary)
@@ -173,23 +171,15 @@ class Run:
         """Whether the colours or texture coordinates of vertices depend on their normals."""
         return self.lit or bool(self.layout.maps_normals)
 
-    def _has_same_clip_planes(self, command: Draw, taken: Draw) -> bool:
-        """Return whether the clip planes of the run are the same in clip space for a draw as for one of the run."""
-        if not len(self.user_planes):
-            return True
-        one, other = command.projection, taken.projection
-        return command.projection_kind == taken.projection_kind and (one is other or one.tobytes() == other.tobytes())
-
     def takes(self, command: Draw) -> bool:
         """Return whether a draw of the same kind as the others continues the run."""
         has_state = command.state is self.state or groups_of(command) == groups_of(self.command)
-        return has_state and self._has_same_clip_planes(command, self.command) and self._is_alike(command)
+        return has_state and self._is_alike(command)
 
     def under(self, command: Draw) -> Run | None:
-        """Return the run that begins with a draw whose tests, blending or clip planes differ; None if more does."""
+        """Return the run that begins with a draw whose tests or blending differ; None if more does."""
         state, first = command.state, self.state
-        groups, own_groups = groups_of(command), groups_of(self.command)
-        if _without_tests(groups) != _without_tests(own_groups):
+        if _without_tests(groups_of(command)) != _without_tests(groups_of(self.command)):
             return None
         if state.depth.clamp != first.depth.clamp:
             return None
@@ -197,14 +187,10 @@ class Run:
             return None
         run = copy(self)
         run.command, run.state = command, state
-        has_same_planes = groups[CLIP_PLANES] == own_groups[CLIP_PLANES]
-        if not (has_same_planes and self._has_same_clip_planes(command, self.command)):
-            run.user_planes = user_planes(command)
-            run._has_user_planes = len(run.user_planes) > 0
         return run
 
     def has_tests_of(self, state: State) -> bool:
-        """Return whether a state that differs in tests, blending or clip planes at most has the same tests."""
+        """Return whether a state that differs in tests or blending at most has the same tests."""
         return (
             state.depth is self.state.depth and state.stencil is self.state.stencil and state.blend is self.state.blend
         )
@@ -233,8 +219,6 @@ class Run:
             return False
         if not self._fills and is_outlined_alone(command):
             return False
-        if self._has_user_planes and not self._has_same_clip_planes(command, taken):
-            return False
         one, other, numbers = command.vertices, taken.vertices, self._unit_numbers
         return one is other or (
             one.color.strides == other.color.strides
@@ -256,14 +240,12 @@ def has_secondaries(vertices: Vertices) -> bool:
 def groups_of(command: Draw) -> tuple[object, ...]:
     """Return the groups of a draw's state that are those of the run, without what does not matter.
 
-    That is the equations of clip planes that are off, and for lines and points all of `Polygon`.
+    That is all of `Polygon` for lines and points.
     """
     state = command.state
     groups: tuple[object, ...] = _groups_of(state)
     if command.mode not in POLYGONS:
         groups = (*groups[:POLYGON], PLAIN_POLYGON, *groups[POLYGON + 1 :])
-    if True not in state.clip_planes.enabled:
-        groups = (*groups[:CLIP_PLANES], NO_CLIP_PLANES, *groups[CLIP_PLANES + 1 :])
     return groups
 
 
@@ -288,7 +270,7 @@ def geometry_structure(run: Run) -> tuple[Hashable, ...]:
     state = run.state
     return (
         state.draw_framebuffer, groups_of(run.command)[POLYGON], state.depth.clamp, *structure_of(state.lighting),
-        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.user_planes.tobytes(), run.across,
+        run.layout, run.arrays, run.generated.tobytes(), run.planes.tobytes(), run.across,
         run.writes_color, effective_modes(state), state.lines, state.points,
         tuple([unit.index for unit in run.units]), width_of(run.command.mode),
     )  # fmt: skip

@@ -31,6 +31,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     UNIT_MATRIX,
     Layout,
 )
+from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
@@ -50,9 +51,9 @@ REAL = np.dtype(np.float32)
 class Table(NamedTuple):
     """The draws of a run as arrays, see the columns in `batch.vertices`.
 
-    numbers (D, 10) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
+    numbers (D, 12) int64; rows (D, 72), unit_rows (D, U, 21): matrices and constants; lights (L, N, 23), materials
     (L, 2, 20), flags (L, 9): each distinct `Lighting`; generated (U, 5), planes (U, 4, 4): generation of coordinates;
-    user_planes (P, 4): the clip planes of all draws in clip space; positions (V, 4), colors (V, 4), normals (V, 3),
+    user_planes (P, 4): of `Planes`; positions (V, 4), colors (V, 4), normals (V, 3),
     texcoords (U, V, 4): of all draws one after the other, no rows where they are constants; reflectances (V, 17 or 34):
     materials of vertices, front and with two-sided lighting back; secondaries (V, 4), fog_coordinates (V,): no rows
     where no column depends on them; indices (I,) int32; scales (W, 3), shifts (W, 3): of `Views`.
@@ -119,7 +120,38 @@ def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.
     return known[2]
 
 
-def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bool = True) -> Table:
+class Planes(NamedTuple):
+    """The clip planes of the draws of a run.
+
+    firsts, ends: the rows [first, end) of each draw; rows (P, 4) float32, in clip space.
+    """
+
+    firsts: Sequence[int]
+    ends: Sequence[int]
+    rows: np.ndarray
+
+
+def planes_of(draws: Sequence[Draw]) -> Planes:
+    """Return the clip planes of draws; those with the same planes and projection share rows."""
+    groups = {id(draw.state.clip_planes): draw.state.clip_planes for draw in draws}
+    if not any(True in group.enabled for group in groups.values()):
+        nothing = [0] * len(draws)
+        return Planes(nothing, nothing, NO_ROWS)
+    places: dict[tuple[int, int, int], tuple[int, int]] = {}
+    parts, of_draws, end = [], [], 0
+    for draw in draws:
+        key = id(draw.state.clip_planes), id(draw.projection), draw.projection_kind
+        if key not in places:
+            rows = user_planes(draw)
+            places[key] = end, end + len(rows)
+            end += len(rows)
+            parts.append(rows)
+        of_draws.append(places[key])
+    firsts, ends = zip(*of_draws, strict=True)
+    return Planes(firsts, ends, np.concatenate(parts))
+
+
+def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, reads_indices: bool = True) -> Table:
     """Return the draws of a run as arrays; without their indices if nobody reads them."""
     arrays, vertices = run.arrays, [draw.vertices for draw in draws]
     rows = np.empty((len(draws), FLOATS), np.float32)
@@ -129,7 +161,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         rows[:, COLOR:NORMAL] = _first_rows([each.color for each in vertices])
     if not arrays.normal:
         rows[:, NORMAL : NORMAL + 3] = _first_rows([each.normal for each in vertices])
-    numbers, lightings = _numbers(draws, run, views)
+    numbers, lightings = _numbers(draws, run, views, planes)
     return Table(
         run.layout,
         numbers,
@@ -138,7 +170,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, *, reads_indices: bo
         *_lighting_arrays(lightings, arrays.materials),
         run.generated,
         run.planes,
-        run.user_planes,
+        read_only(planes.rows),
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
@@ -208,7 +240,7 @@ def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -
     return read_only(rows.reshape(n_vertices, n_sides * lighting.REFLECTANCES))
 
 
-def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray, list[Lighting]]:
+def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
     reads_normals, last = run.reads_normals, draws[0].state.lighting
     equal = last  # the latest one with the same rows as `last`
@@ -216,7 +248,7 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
     across_by_mode = {GL_QUADS: 1} if first_provokes(run.state) else {}
     table: list[int] = []  # in the order of the columns
     lightings, start, index_start = [last], 0, 0
-    for draw, view in zip(draws, views.of_draws, strict=True):
+    for draw, view, first_plane, end_plane in zip(draws, views.of_draws, planes.firsts, planes.ends, strict=True):
         indices, lights = draw.indices, draw.state.lighting
         end, indexed = start + len(draw.vertices.position), indices is not None
         index_end = index_start if indices is None else index_start + len(indices)
@@ -228,7 +260,7 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views) -> tuple[np.ndarray,
         row = len(lightings) - 1
         kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
         mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
-        table += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view)
+        table += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view, first_plane, end_plane)
         start, index_start = end, index_end
     return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
 

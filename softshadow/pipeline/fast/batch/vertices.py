@@ -31,9 +31,11 @@ from softshadow.programs.lighting import SMALLEST_SCALE
 # columns of a draw's row: matrices, constant attributes; the product and the inverse are written by `prepare_draws`
 MODELVIEW, PROJECTION, COLOR, NORMAL, PRODUCT, INVERSE, FLOATS = 0, 16, 32, 36, 40, 56, 72
 # columns of a draw's numbers: vertices and indices [start, end), how its modelview matrix is inverted; ACROSS: 1 if
-# all its quads are cut along the other diagonal, IN_STAGES if all are cut like clipped ones; VIEW: its viewport
+# all its quads are cut along the other diagonal, IN_STAGES if all are cut like clipped ones; VIEW: its viewport;
+# rows [FIRST_PLANE, END_PLANE): its clip planes
 # MODE is JOINED_STRIPS for separate triangles of several strips, with quad strips among them
-START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, VIEW, NUMBERS = range(11)
+START, END, MODE, INDEX_START, INDEX_END, INDEXED, KIND, LIGHTING, ACROSS, VIEW, FIRST_PLANE, END_PLANE = range(12)
+NUMBERS = 12
 IN_STAGES = 2
 JOINED_STRIPS = -1
 # columns of a texture unit of a draw: its matrix, the constant coordinates, whether the matrix is the identity
@@ -132,8 +134,10 @@ def process_vertices(
             clip_position(product, positions, v, clip)
             codes[v] = outcode(clip[v, 0], clip[v, 1], clip[v, 2], clip[v, 3]) & ~layout.ignored
             window_position(clip, v, scale, shift, window)
-        if user_planes.shape[0]:
-            write_outcodes(clip[first:last], user_planes, layout.ignored, codes[first:last])
+        first_plane, end_plane = numbers[d, FIRST_PLANE], numbers[d, END_PLANE]
+        if first_plane < end_plane:
+            own_planes = user_planes[first_plane:end_plane]
+            write_outcodes(clip[first:last], own_planes, layout.ignored, codes[first:last])
         lighting, kind = numbers[d, LIGHTING], numbers[d, KIND]
         if layout.lit:
             light_vertices(
