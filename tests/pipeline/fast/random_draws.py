@@ -21,6 +21,7 @@ class Program:
         self.rng = np.random.default_rng(seed)
         self.environment = np.random.default_rng([seed, 1])  # of its own: seeds of examples keep their programs
         self.corners = np.random.default_rng([seed, 2])  # the same, for what concerns single corners
+        self.planes = np.random.default_rng([seed, 3])
         self.mode = self.one_of(*MODES)
 
     def draw(self, states: int = 3, draws: int = 5, *, changes_tests: bool = False) -> Context:
@@ -35,6 +36,7 @@ class Program:
             for _ in range(draws):
                 if changes_tests:
                     self.set_tests()
+                self.set_planes()
                 self.set_matrices()
                 self.draw_something()
         gl.glFinish()
@@ -132,6 +134,14 @@ class Program:
         else:
             gl.glViewport(*self.rng.integers(-4, SIZE, 2).tolist(), *self.rng.integers(1, SIZE, 2).tolist())
             gl.glDepthRange(*self.rng.random(2).tolist())
+
+    def set_planes(self) -> None:
+        """Change a clip plane before some draws, switch it or both."""
+        plane = int(self.planes.choice((gl.GL_CLIP_PLANE0, gl.GL_CLIP_PLANE3)))
+        if self.planes.random() < 0.2:
+            gl.glClipPlane(plane, self.planes.uniform(-1, 1, 4).tolist())
+        if self.planes.random() < 0.15:
+            (gl.glEnable if self.planes.random() < 0.6 else gl.glDisable)(plane)
 
     def set_lighting(self) -> None:
         self.switch(gl.GL_LIGHTING, 0.7)

@@ -174,6 +174,31 @@ def test_numbers_that_are_printed_alike_are_told_apart(close, colors):
     np.testing.assert_array_equal(drawn(), expected)
 
 
+def test_draws_of_a_run_are_told_apart_by_the_planes_of_each(hits):
+    """Each of two draws is clipped by plane 0, by another one, or by none, in all pairs and each pair twice."""
+    mesh = np.random.default_rng(5).uniform(-1, 1, (2, 30, 3)).astype(np.float32)
+
+    def drawn() -> list[bytes]:
+        with gl.create_context(SIZE, SIZE):
+            gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+            buffers = []
+            for pair in [divmod(number, 3) for number in range(9) for _ in range(2)]:
+                gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+                for rows, kind in zip(mesh, pair, strict=True):
+                    (gl.glEnable if kind else gl.glDisable)(gl.GL_CLIP_PLANE0)
+                    gl.glClipPlane(gl.GL_CLIP_PLANE0, (1.0, 0.0, 0.0, 0.3 * kind - 0.4))
+                    gl.glVertexPointer(3, gl.GL_FLOAT, 0, rows)
+                    gl.glDrawArrays(gl.GL_TRIANGLES, 0, len(rows))
+                buffers.append(gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).tobytes())
+            return buffers
+
+    with use_short_cuts(False):
+        expected = drawn()
+    assert len(set(expected)) == 9
+    assert drawn() == expected
+    assert hits
+
+
 def test_only_the_latest_draws_are_remembered():
     recent = RecentTriangles()
     for n in range(3 * recent_triangles.MOST_RECENT):

@@ -319,9 +319,9 @@ def _key_of(
     """Return what the triangles of a run depend on, but for its culling."""
     image = target.depth
     return (
-        *map(triangles_key, draws), window_key(run.command, target), *planes.ends, planes.rows.tobytes(),
-        *views.of_draws, views.scales.tobytes(), views.shifts.tobytes(), repr(setting.offset), run.across,
-        None if image is None else image.format,
+        *map(triangles_key, draws), window_key(run.command, target), *planes.firsts, *planes.ends,
+        planes.rows.tobytes(), *views.of_draws, views.scales.tobytes(), views.shifts.tobytes(), repr(setting.offset),
+        run.across, None if image is None else image.format,
     )  # fmt: skip
 
 
