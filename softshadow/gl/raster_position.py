@@ -19,7 +19,7 @@ from softshadow.gl.errors import outside_begin
 from softshadow.gl.raster_lighting import raster_colors, transformed
 from softshadow.gl.render_modes import note_raster_position
 from softshadow.jit import read_only
-from softshadow.pipeline.geometry.geometry import planes_in_clip_space
+from softshadow.pipeline.geometry.clip_planes import planes_in_clip_space
 from softshadow.pipeline.geometry.raster_position import raster_place
 from softshadow.state import Viewport
 

@@ -7,8 +7,8 @@ from softshadow import gl, matrices
 from softshadow.inspection.history import pixel_history
 from softshadow.inspection.replay import Replay
 from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.clip_planes import user_planes
 from softshadow.pipeline.geometry.draw_primitives import assembled_triangles, joined_needs_clipping
-from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.vertex import to_clip
 
 SIDE = 8

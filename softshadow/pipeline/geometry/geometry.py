@@ -13,6 +13,7 @@ from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.assembly import begins_stipple, pieces_begin_stipple
 from softshadow.pipeline.geometry.clip import NO_EDGES, Clipped, clip_triangles
+from softshadow.pipeline.geometry.clip_planes import user_planes
 from softshadow.pipeline.geometry.draw_primitives import (
     drawn_edges,
     has_no_edges,
@@ -43,8 +44,7 @@ from softshadow.pipeline.mesa.polygon_rules import is_stippled, offset_is_on, pa
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes, order_for_setup, order_pieces
 from softshadow.pipeline.records import Discards, Geometry, Setup
 from softshadow.programs import Program, Varyings, VertexInputs
-from softshadow.programs.inverse import inverse
-from softshadow.state import ClipPlanes, Cull, Polygon, State, Viewport
+from softshadow.state import Cull, Polygon, State, Viewport
 
 SIDE = 32  # rows and columns of a polygon stipple
 
@@ -294,24 +294,6 @@ def stipple_of(state: State, outlined: Outlined, target: Framebuffer) -> Discard
     if target.flipped:
         pattern = pattern[(target.size[1] - 1 - np.arange(SIDE)) % SIDE]
     return Discards(pattern)  # also for lines and points of the same draw: Mesa draws all with one shader
-
-
-def user_planes(command: Draw) -> np.ndarray:
-    """Return the enabled clip planes (P, 4) in clip space."""
-    return planes_in_clip_space(command.state.clip_planes, command.projection, command.projection_kind)
-
-
-def planes_in_clip_space(planes: ClipPlanes, projection: np.ndarray, projection_kind: int) -> np.ndarray:
-    """Return the enabled planes (P, 4): those of eye space times the inverse projection."""
-    if not any(planes.enabled):
-        return np.empty((0, 4), np.float32)
-    enabled = [equation for on, equation in zip(planes.enabled, planes.equations, strict=True) if on]
-    in_clip_space = np.empty((len(enabled), 4), np.float32)
-    with np.errstate(all="ignore"):  # also where draws begin to wait, not only in pipeline.draw
-        m = inverse(projection, projection_kind)
-        for row, (a, b, c, d) in zip(in_clip_space, np.array(enabled, np.float32), strict=True):
-            row[:] = ((a * m[0] + b * m[1]) + c * m[2]) + d * m[3]
-    return in_clip_space
 
 
 def offset_mode_of(command: Draw, storage: Storage) -> int:

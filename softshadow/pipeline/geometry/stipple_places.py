@@ -8,12 +8,12 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Storage
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip import outcodes
+from softshadow.pipeline.geometry.clip_planes import user_planes
 from softshadow.pipeline.geometry.draw_primitives import lines_or_points_of
 from softshadow.pipeline.geometry.geometry import (
     positions_of,
     process_geometry,
     stipple_places,
-    user_planes,
     with_new_vertices,
 )
 from softshadow.pipeline.geometry.line_stipple import place_after

@@ -16,7 +16,9 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.matrices import invert
+from softshadow.pipeline.fast.batch.planes import planes_of
 from softshadow.pipeline.fast.batch.run import Run
+from softshadow.pipeline.geometry.clip_planes import user_planes
 from softshadow.pipeline.geometry.geometry import process_geometry
 from softshadow.pipeline.memory import threads as pool
 from softshadow.programs import inverse
@@ -213,6 +215,21 @@ def test_the_cut_of_quads_depends_on_their_segment(seed, n_clipped):
     with use_short_cuts(False):
         expected = quads()
     assert same_buffers(quads(), expected)
+
+
+def test_the_planes_of_draws_are_those_of_single_draws(monkeypatch):
+    waiting, geometry_of = [], queue.geometry_of
+    monkeypatch.setattr(queue, "geometry_of", lambda run, setting, draws, *more: (
+        waiting.append(draws), geometry_of(run, setting, draws, *more))[1])  # fmt: skip
+    for seed in range(20):
+        Program(seed).draw()
+    n_rows = set()
+    for draws in waiting:
+        planes = planes_of(draws)
+        n_rows.add(len(planes.rows))
+        for draw, first, end in zip(draws, planes.firsts, planes.ends, strict=True):
+            np.testing.assert_array_equal(planes.rows[first:end], user_planes(draw))
+    assert {0, 1, 2, 3} <= n_rows
 
 
 def test_a_long_run_is_cut(monkeypatch):

@@ -33,9 +33,10 @@ from softshadow.pipeline.fast.batch.lines_and_points import (
     stipple_places,
     widths_of_lines,
 )
+from softshadow.pipeline.fast.batch.planes import Planes, planes_of
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
-from softshadow.pipeline.fast.batch.table import REAL, Planes, Table, Views, planes_of, table_of, views_of
+from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
 from softshadow.pipeline.fast.batch.vertices import END, FIRST_PLANE, VIEW, prepare_draws, process_vertices
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key

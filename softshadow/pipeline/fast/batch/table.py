@@ -13,6 +13,7 @@ from softshadow.jit import read_only
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch import lighting
+from softshadow.pipeline.fast.batch.planes import Planes
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.vertices import (
     BY_COORDINATE,
@@ -31,7 +32,6 @@ from softshadow.pipeline.fast.batch.vertices import (
     UNIT_MATRIX,
     Layout,
 )
-from softshadow.pipeline.geometry.geometry import user_planes
 from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
@@ -118,37 +118,6 @@ def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.
         scale, shift = scale_and_shift(viewport, *place, REAL)
         known = _transforms[id(viewport)] = viewport, place, (read_only(scale[None]), read_only(shift[None]))
     return known[2]
-
-
-class Planes(NamedTuple):
-    """The clip planes of the draws of a run.
-
-    firsts, ends: the rows [first, end) of each draw; rows (P, 4) float32, in clip space.
-    """
-
-    firsts: Sequence[int]
-    ends: Sequence[int]
-    rows: np.ndarray
-
-
-def planes_of(draws: Sequence[Draw]) -> Planes:
-    """Return the clip planes of draws; those with the same planes and projection share rows."""
-    groups = {id(draw.state.clip_planes): draw.state.clip_planes for draw in draws}
-    if not any(True in group.enabled for group in groups.values()):
-        nothing = [0] * len(draws)
-        return Planes(nothing, nothing, NO_ROWS)
-    places: dict[tuple[int, int, int], tuple[int, int]] = {}
-    parts, of_draws, end = [], [], 0
-    for draw in draws:
-        key = id(draw.state.clip_planes), id(draw.projection), draw.projection_kind
-        if key not in places:
-            rows = user_planes(draw)
-            places[key] = end, end + len(rows)
-            end += len(rows)
-            parts.append(rows)
-        of_draws.append(places[key])
-    firsts, ends = zip(*of_draws, strict=True)
-    return Planes(firsts, ends, np.concatenate(parts))
 
 
 def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, reads_indices: bool = True) -> Table:
