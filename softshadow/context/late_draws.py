@@ -92,10 +92,9 @@ def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
     return [separated(each, draw.counts) if draw.counts else each for each, (draw, _) in zip(made, alike, strict=True)]
 
 
-def _moved(draws: Sequence[MovedDraw]) -> Iterator[tuple[list[Draw], None]]:
-    for _, same in groupby(draws, lambda draw: id(draw.like)):
-        alike = list(same)
-        yield moved_draws(alike[0].like, [draw[1:] for draw in alike]), None
+def _likeness(draw: LateDraw | MovedDraw) -> tuple[int, tuple[str, ...]]:
+    """Return what draws in a row have in common that differ in vertices, indices and modelview matrix only."""
+    return (id(draw.form.like), draw.form.columns) if isinstance(draw, LateDraw) else (id(draw.like), ())
 
 
 class LateDraws:
@@ -135,26 +134,27 @@ class LateDraws:
     def take(self) -> Iterator[tuple[list[Draw], list[np.ndarray] | None]]:
         """Yield the draws in their order, and forget them; those of a list differ in vertices and matrix only.
 
-        They have arrays of the same attributes. And the memory of these arrays, which they share; None where each has
-        its own.
+        They have arrays of the same attributes. And the memory of these arrays, which all pairs share; None where each
+        draw has its own.
         """
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        for kind, same in groupby(draws, type):
+        memory: list[np.ndarray] = []
+        vertices = self._vertices_of([draw for draw in draws if isinstance(draw, LateDraw)], memory)
+        for _, same in groupby(draws, _likeness):
             alike: list[Any] = list(same)
-            yield from self._of_pairs(alike) if kind is LateDraw else _moved(alike)
+            if isinstance(alike[0], LateDraw):
+                yield _made([(draw, next(vertices)) for draw in alike]), memory
+            else:
+                yield moved_draws(alike[0].like, [draw[1:] for draw in alike]), None
 
-    def _of_pairs(self, draws: Sequence[LateDraw]) -> Iterator[tuple[list[Draw], list[np.ndarray]]]:
-        """Yield the draws of pairs in their order, as `take` does."""
+    def _vertices_of(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterator[Vertices]:
+        """Return the vertices of each of the draws; add their memory."""
         forms: dict[Hashable, list[LateDraw]] = {}
         keys = [(len(draw.primitive.positions), draw.form.columns, id(draw.form.texcoords)) for draw in draws]
         for key, draw in zip(keys, draws, strict=True):
             forms.setdefault(key, []).append(draw)
-        memory: list[np.ndarray] = []
         vertices = {key: iter(self._vertices(same, memory)) for key, same in forms.items()}
-        with_vertices = zip(draws, [next(vertices[key]) for key in keys], strict=True)
-        alike = groupby(with_vertices, lambda each: (id(each[0].form.like), each[0].form.columns))
-        for _, same in alike:
-            yield _made(list(same)), memory
+        return (next(vertices[key]) for key in keys)
 
     def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
         """Return the vertices of draws with as many vertices and the same attributes; add their memory."""

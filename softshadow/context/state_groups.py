@@ -138,8 +138,11 @@ class Group:
             self._equal.setdefault(key, []).append(value)
 
     def _key(self, fields: Mapping[str, Any]) -> tuple[Any, ...] | None:
-        """Return equal keys for equal values; None for a group of groups, which is known by their identity."""
-        return None if self.parts else tuple(fields.values())
+        """Return equal keys for equal values; None for the whole state, known by the identity of its groups."""
+        if self.parent is None:
+            return None
+        parts = self.parts
+        return tuple([id(value) if name in parts else value for name, value in fields.items()])
 
 
 def _ids(fields: Mapping[str, Any]) -> tuple[int, ...]:

@@ -36,6 +36,18 @@ def test_a_state_with_other_bits_is_another_one(context):
     assert states[0].polygon is states[2].polygon
 
 
+def test_a_group_with_parts_that_has_equal_values_again_is_the_same_object(context):
+    states = []
+    for number in range(6):
+        gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, [number % 3, 0.1, 0.2, 1])
+        gl.glLightModeli(gl.GL_LIGHT_MODEL_TWO_SIDE, number % 3 == 1)
+        states.append(context.state)
+    assert [id(state.lighting) for state in states[:3]] == [id(state.lighting) for state in states[3:]]
+    assert len({id(state) for state in states}) == 3
+    gl.glLightModelfv(gl.GL_LIGHT_MODEL_AMBIENT, [-0.0, 0.1, 0.2, 1])
+    assert copysign(1, context.state.lighting.model_ambient[0]) == -1
+
+
 def test_only_the_latest_states_are_kept(context):
     first = context.state
     for width in range(2, PAST + 50):
