@@ -42,15 +42,16 @@ def bench_corpus(
     chosen = [each for name in names for each in families.get(name, (name.removeprefix(f"{CORPUS}/"),))]
     programs = [get(name) for name in dict.fromkeys(chosen)]
     results = []
-    for number in threads:
-        for program in programs:
-            result = measure(program.resized(size) if size else program, number, rounds)
+    for program in programs:
+        for result in measure(program.resized(size) if size else program, threads, rounds):
             results.append(result)
             differing = "equal buffers" if result.equal else f"DIFFERING: {dict(result.differing)}"
             say(
-                f"{result.name}: {differing}; Mesa {result.mesa:.2f} ms, softshadow {result.own:.2f} ms, ratio "
-                f"{result.ratio:.2f}; first frame {result.mesa_first:.0f} and {result.own_first:.0f} ms"
+                f"{result.name}, threads {result.threads}: {differing}; Mesa {result.mesa:.2f} ms, softshadow "
+                f"{result.own:.2f} ms, ratio {result.ratio:.2f}; first frame {result.mesa_first:.0f} and "
+                f"{result.own_first:.0f} ms"
             )
+    results.sort(key=lambda result: threads.index(result.threads))
     if as_json:
         print_json("bench-corpus", machine=machine(with_mesa=True), rounds=rounds, **to_json(results))
     else:

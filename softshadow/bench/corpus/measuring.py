@@ -12,7 +12,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from statistics import median
@@ -93,8 +93,11 @@ def child(side: str, program: Program, threads: int, more: dict[str, str] | None
         process.close()
 
 
-def measure(program: Program, threads: int, rounds: int) -> ProgramTimes:
-    """Return the times of a program on Mesa and on softshadow, and how many pixels differ.
+def measure(program: Program, threads: Sequence[int], rounds: int) -> list[ProgramTimes]:
+    """Return the times of a program on Mesa and on softshadow, and how many pixels differ, for each number of threads.
+
+    All processes draw in each round, so that ratios compare times of the same seconds: also those of one number of
+    threads with those of another.
 
     Raises
     ------
@@ -102,21 +105,31 @@ def measure(program: Program, threads: int, rounds: int) -> ProgramTimes:
     """
     if not mesa_available():
         raise MesaError(mesa_reason())
-    differing, fused = differing_pixels(program, threads)  # which also fills the disk caches of both sides
+    # which also fills the disk caches of both sides
+    differing = {number: differing_pixels(program, number) for number in threads}
     with ExitStack() as processes:
-        sides = {side: processes.enter_context(child(side, program, threads)) for side in (MESA, OWN)}
-        first = {side: each.draw(1)["milliseconds"][0] for side, each in sides.items()}
-        frames = {side: frames_in_a_round(each.draw(3)["milliseconds"]) for side, each in sides.items()}
-        times: dict[str, list[float]] = {side: [] for side in sides}
+        sides = {
+            (side, number): processes.enter_context(child(side, program, number))
+            for number in threads
+            for side in (MESA, OWN)
+        }
+        first = {peer: each.draw(1)["milliseconds"][0] for peer, each in sides.items()}
+        frames = {peer: frames_in_a_round(each.draw(3)["milliseconds"]) for peer, each in sides.items()}
+        times: dict[tuple[str, int], list[float]] = {peer: [] for peer in sides}
+        memory = {}
         for _ in range(rounds):
-            for side, each in sides.items():
-                answer = each.draw(frames[side])
-                times[side].append(median(answer["milliseconds"]))
-    return ProgramTimes(
-        program.name, program.size, threads, median(times[MESA]), median(times[OWN]),
-        median(mesa / own for mesa, own in zip(times[MESA], times[OWN], strict=True)),
-        first[MESA], first[OWN], differing, fused, answer["memory"],
-    )  # fmt: skip
+            for peer, each in sides.items():
+                answer = each.draw(frames[peer])
+                times[peer].append(median(answer["milliseconds"]))
+                memory[peer] = answer["memory"]
+    return [
+        ProgramTimes(
+            program.name, program.size, number, median(times[MESA, number]), median(times[OWN, number]),
+            median(mesa / own for mesa, own in zip(times[MESA, number], times[OWN, number], strict=True)),
+            first[MESA, number], first[OWN, number], *differing[number], memory[OWN, number],
+        )
+        for number in threads
+    ]  # fmt: skip
 
 
 def frames_in_a_round(milliseconds: list[float]) -> int:
