@@ -7,7 +7,7 @@ compiled up to that code when another kernel asks for it; and completely, when P
 
 import re
 from functools import cache
-from types import BuiltinFunctionType, CodeType
+from types import BuiltinFunctionType, CodeType, FunctionType
 from typing import Any, ClassVar
 
 from llvmlite import binding as llvm
@@ -23,6 +23,7 @@ PART = "part"  # kind of a stored library
 # what may differ between a part and a complete kernel, without any effect on what they call
 ONLY_FOR_PARTS = {"no_compile": False, "no_cpython_wrapper": False}
 FLAGS_HASH = hash(Flags())
+ROOM = 1 << 16  # places of 8 bytes: half of the block, as the frame itself takes a few more
 MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
 PYTHON = ("_operator", "builtins")  # modules of operators, and of min, max, bool, range ...
 SLOWED_DOWN = {"skylake-avx512", "cascadelake", "cooperlake", "cannonlake"}  # LLVM's names of processors
@@ -188,9 +189,9 @@ class KernelCompiler(NumbaCompiler):
             library = WholeLibrary(target.codegen(), self.py_func.__qualname__)
             library.is_wide = self.is_wide
             library.enable_object_caching()
-        result = compile_extra(
-            typing_for_kernels(self.targetdescr.typing_context), target, self.py_func, args, return_type, flags,
-            self.locals, library, KernelPasses,
+        result = call_with_room(
+            compile_extra, typing_for_kernels(self.targetdescr.typing_context), target, self.py_func, args, return_type,
+            flags, self.locals, library, KernelPasses,
         )  # fmt: skip
         if is_for_kernels:
             return as_part(result)
@@ -198,6 +199,15 @@ class KernelCompiler(NumbaCompiler):
         for environment in result._find_referenced_environments():
             result.codegen.set_env(environment.env_name, environment)
         return result
+
+
+def _call(function: Any, *arguments: Any) -> Any:
+    return function(*arguments)
+
+
+# the same with a large frame: Python takes memory for frames from the system, 16 KB or what a frame needs, rounded up to
+# a power of two. The compiler calls so deep that else many calls begin at the end of such a block, and each gets a new one
+call_with_room = FunctionType(_call.__code__.replace(co_stacksize=ROOM), globals())
 
 
 def as_part(result: Any) -> Any:
