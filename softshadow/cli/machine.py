@@ -99,7 +99,7 @@ def _move_images() -> None:
 
 @contextmanager
 def _without_collection() -> Iterator[None]:
-    """Pause garbage collection: between two kernels it would look at all that the compiler has made."""
+    """Pause garbage collection: between two kernels and at the end it would look at all that the compiler has made."""
     import gc
 
     was_enabled = gc.isenabled()

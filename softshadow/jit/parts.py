@@ -23,7 +23,7 @@ PART = "part"  # kind of a stored library
 # what may differ between a part and a complete kernel, without any effect on what they call
 ONLY_FOR_PARTS = {"no_compile": False, "no_cpython_wrapper": False}
 FLAGS_HASH = hash(Flags())
-ROOM = 1 << 16  # places of 8 bytes: half of the block, as the frame itself takes a few more
+ROOM = 1 << 16  # values of a frame that takes little more than half of a block, the rest of which is for calls
 MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
 PYTHON = ("_operator", "builtins")  # modules of operators, and of min, max, bool, range ...
 SLOWED_DOWN = {"skylake-avx512", "cascadelake", "cooperlake", "cannonlake"}  # LLVM's names of processors
@@ -205,8 +205,9 @@ def _call(function: Any, *arguments: Any) -> Any:
     return function(*arguments)
 
 
-# the same with a large frame: Python takes memory for frames from the system, 16 KB or what a frame needs, rounded up to
-# a power of two. The compiler calls so deep that else many calls begin at the end of such a block, and each gets a new one
+# The same with a large frame. Python takes blocks of memory for frames from the system: of 16 KB, or of what a frame
+# needs, rounded up to a power of two. A call at the end of a block gets a new one each time: deep in the compiler, where
+# many began there, that took a tenth of the time.
 call_with_room = FunctionType(_call.__code__.replace(co_stacksize=ROOM), globals())
 
 
