@@ -206,8 +206,8 @@ def _call(function: Any, *arguments: Any) -> Any:
 
 
 # The same with a large frame. Python takes blocks of memory for frames from the system: of 16 KB, or of what a frame
-# needs, rounded up to a power of two. A call at the end of a block gets a new one each time: deep in the compiler, where
-# many began there, that took a tenth of the time.
+# needs, rounded up to a power of two. A call at the end of a block gets a new one each time. In the compiler, which
+# calls deep, that took a tenth of the time.
 call_with_room = FunctionType(_call.__code__.replace(co_stacksize=ROOM), globals())
 
 
