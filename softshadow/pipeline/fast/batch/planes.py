@@ -25,16 +25,16 @@ class Planes(NamedTuple):
 
 def planes_of(draws: Sequence[Draw]) -> Planes:
     """Return the clip planes of draws; those with the same planes and projection share rows."""
-    groups = {id(draw.state.clip_planes): draw.state.clip_planes for draw in draws}
-    if not any(True in group.enabled for group in groups.values()):
+    groups = [draw.state.clip_planes for draw in draws]
+    if not any(True in group.enabled for group in {id(group): group for group in groups}.values()):
         nothing = [0] * len(draws)
         return Planes(nothing, nothing, NO_PLANES)
     places: dict[tuple[int, ...], tuple[int, int]] = {}
     inverses: dict[tuple[int, ...], np.ndarray] = {}
     planes: list[tuple[float, ...]] = []
     of_planes, of_draws = [], []
-    for draw in draws:
-        matrix, kind, group = draw.projection, draw.projection_kind, draw.state.clip_planes
+    for draw, group in zip(draws, groups, strict=True):
+        matrix, kind = draw.projection, draw.projection_kind
         projection = id(matrix), kind
         place = places.get((id(group), *projection))
         if place is None:
