@@ -15,7 +15,7 @@ from softshadow.pipeline.shade.visible_spans import BandsOfIds
 SMALL = {
     "buffers.accumulation": {"PIXELS_PER_TASK": 100},
     "choose": {"WORTH_BANDS": 0, "WORTH_THREADS": 0, "WORTH_BANDS_IN_TILES": 0, "WORTH_SHARING": 1},
-    "fast.batch.geometry": {"VERTICES_PER_TASK": 8},
+    "fast.batch.vertex_stage": {"VERTICES_PER_TASK": 8},
     "fast.forward": {"WORTH_BANDS": 0},
     "fast.stencil_tiles": {"WORTH_SHARING": 0, "SHARED_TRIANGLES": 8},
     "memory.threads": {"PART_SIZE": 8},

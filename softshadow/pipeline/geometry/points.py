@@ -26,7 +26,10 @@ def clip_points(
     user_planes: np.ndarray,
     starts: np.ndarray = NO_STARTS,
 ) -> Clipped:
-    """Return the points (P, 1) whose centre is inside the frustum and the user planes, as `clip_triangles` does."""
+    """Return the points (P, 1) whose centre is inside the frustum and the user planes, as `clip_triangles` does.
+
+    Nothing is cut, so the codes are enough.
+    """
     # four truth values are compared as one number: `all(axis=1)` would take ten times as long
     are_finite = np.isfinite(clip, order="C").view(np.uint32)[:, 0] == ALL_TRUE
     visible = np.flatnonzero(((codes == 0) & are_finite)[points[:, 0]]).astype(np.int32)

@@ -13,7 +13,7 @@ from softshadow.context import Context
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline import plan, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch import geometry
+from softshadow.pipeline.fast.batch import geometry, vertex_stage
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.matrices import invert
 from softshadow.pipeline.fast.batch.planes import planes_of
@@ -186,7 +186,7 @@ def test_threads_and_small_runs_make_no_difference(seed):
         patch.setattr(pool, "PART_SIZE", 5)
         patch.setattr(queue, "MOST_DRAWS", 3)
         patch.setattr(geometry, "SMALL", 8)
-        patch.setattr(geometry, "VERTICES_PER_TASK", 5)
+        patch.setattr(vertex_stage, "VERTICES_PER_TASK", 5)
         set_threads(3)
         try:
             assert same_buffers(Program(seed).draw(), expected)

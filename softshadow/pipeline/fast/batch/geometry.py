@@ -26,7 +26,6 @@ from softshadow.pipeline.fast.batch.assembly import (
     primitives_of,
     width_of,
 )
-from softshadow.pipeline.fast.batch.lighting import PLACED_COLUMNS
 from softshadow.pipeline.fast.batch.lines_and_points import (
     sizes_of_points,
     stipple_of_polygons,
@@ -37,7 +36,8 @@ from softshadow.pipeline.fast.batch.planes import Planes, planes_of
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.small_runs import place_new, set_up_pieces, set_up_run
 from softshadow.pipeline.fast.batch.table import REAL, Table, Views, table_of, views_of
-from softshadow.pipeline.fast.batch.vertices import END, FIRST_PLANE, VIEW, prepare_draws, process_vertices
+from softshadow.pipeline.fast.batch.vertex_stage import Outputs, empty_outputs, inputs_of, write_outputs
+from softshadow.pipeline.fast.batch.vertices import END, FIRST_PLANE, VIEW
 from softshadow.pipeline.fast.geometry_cache import recent_of
 from softshadow.pipeline.fast.recent_triangles import triangles_key, window_key
 from softshadow.pipeline.geometry.assembly import edge_flags, edges_of_joined_polygons
@@ -57,17 +57,14 @@ from softshadow.pipeline.geometry.program import program_of
 from softshadow.pipeline.geometry.triangle_setup import NO_TRIANGLES, Offset, empty_setup, stored_culling
 from softshadow.pipeline.geometry.vertex import append_rows
 from softshadow.pipeline.memory.scratch import scratch
-from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.mesa.polygon_rules import is_stippled
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
 from softshadow.programs.fixed_function import is_replaced
 
-VERTICES_PER_TASK = 1 << 13  # that a thread processes in one go
 SMALL = 1 << 12  # vertices, and triangles, of a run that one kernel sets up
 MOST_COMPARED = 32  # draws of a run that is compared with recent ones
-PLACED = 6  # of the inputs of the vertex stage: the array that `prepare_draws` fills
 
 
 class Setting(NamedTuple):
@@ -89,28 +86,6 @@ def setting_of(run: Run, target: Framebuffer, storage: Storage) -> Setting:
     """Return what the geometry of a run depends on besides its draws."""
     facing = stored_culling(run.state.cull, target.flipped)
     return Setting(*facing, filled_offset(run.command, target), _flat_columns(run), *program_of(run.command, storage))
-
-
-class Outputs(NamedTuple):
-    """What the vertex stage makes of the vertices of a run; back is None without two-sided lighting."""
-
-    clip: np.ndarray
-    codes: np.ndarray
-    window: np.ndarray
-    values: np.ndarray
-    back: np.ndarray | None
-
-    @property
-    def for_kernels(self) -> tuple[np.ndarray, ...]:
-        """The arrays, with one that is not written in the place of a missing one."""
-        return *self[:4], self.values if self.back is None else self.back
-
-    @property
-    def columns(self) -> np.ndarray:
-        """All values that clipping interpolates: none of back faces if it makes no new vertices."""
-        if self.back is None or not self.codes.any():
-            return self.values
-        return np.hstack([self.values, self.back])
 
 
 class Batch(NamedTuple):
@@ -154,8 +129,8 @@ def geometry_of(
         return _batch(_repeated_geometry(run, setting, draws, views, planes, target, known))
     table, most = table_of(run, draws, views, planes), sum(map(primitives_of, draws))
     n = len(table.positions)
-    command, width, outputs = run.command, width_of(run.command.mode), _empty_outputs(n, table, setting)
-    inputs = _inputs(table)
+    command, width, outputs = run.command, width_of(run.command.mode), empty_outputs(n, table, len(setting.flat))
+    inputs = inputs_of(table)
     triangles, provoking = scratch((most, 3), np.int32), scratch(most, np.int32)
     unset = Geometry(
         NO_TRIANGLES, *outputs[2:], setting.flat, provoking, provoking, setting.program, setting.uniforms
@@ -173,7 +148,7 @@ def geometry_of(
         if n_drawn >= 0:
             return _batch(unset._replace(triangles=Setup(*[array[:n_drawn] for array in setup])), area >> 8)
     else:
-        _write_outputs(table, inputs, outputs)
+        write_outputs(table, inputs, outputs)
         if is_polygons:
             n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
             if is_first:
@@ -346,8 +321,8 @@ def _repeated_geometry(
         return geometry
     table = table_of(run, draws, views, planes, reads_indices=False)
     n = len(table.positions)
-    outputs = _empty_outputs(n, table, setting)
-    _write_outputs(table, _inputs(table), outputs)
+    outputs = empty_outputs(n, table, len(setting.flat))
+    write_outputs(table, inputs_of(table), outputs)
     columns = outputs.columns
     if len(geometry.window) > n and known.cut is not None:
         cut, clip, codes = known.cut, outputs.clip, outputs.codes
@@ -373,29 +348,6 @@ def _cut_vertices(triangles: np.ndarray, codes: np.ndarray) -> np.ndarray:
     sides = np.empty(len(triangles), np.uint8)
     write_sides(read_only(triangles), codes, 0, len(triangles), sides)
     return triangles.take(np.flatnonzero(sides == CUT), axis=0).reshape(-1)
-
-
-def _empty_outputs(n: int, table: Table, setting: Setting) -> Outputs:
-    k = len(setting.flat)
-    back = scratch((n, k), REAL) if table.layout.two_side else None
-    return Outputs(scratch((n, 4), REAL), scratch(n, np.int32), scratch((n, 4), REAL), scratch((n, k), REAL), back)
-
-
-def _inputs(table: Table) -> tuple[Any, ...]:
-    """Return the inputs of the vertex stage, as kernels take them."""
-    placed = np.zeros((len(table.rows), table.lights.shape[1], PLACED_COLUMNS), REAL)
-    return (
-        table.layout, table.numbers, table.rows, table.lights, table.materials, table.flags, placed, table.generated,
-        table.planes, table.user_planes, table.unit_rows, table.positions, table.colors, table.normals,
-        table.reflectances, table.secondaries, table.fog_coordinates, table.texcoords, table.scales, table.shifts,
-    )  # fmt: skip
-
-
-def _write_outputs(table: Table, inputs: tuple[Any, ...], outputs: Outputs) -> None:
-    """Process the vertices of all draws, in parts that threads share."""
-    prepare_draws(*inputs[:3], table.lights, table.flags, inputs[PLACED])
-    parts = parts_of(len(outputs.clip), VERTICES_PER_TASK)
-    share(lambda part: process_vertices(*parts[part], *inputs, *outputs.for_kernels), len(parts))
 
 
 def _lines_or_points(table: Table, most: int, width: int) -> np.ndarray:
