@@ -26,7 +26,7 @@ SMALL = {
 }
 
 SHARING = [
-    "buffers.accumulation", "fast.batch.geometry", "fast.depth_only", "fast.forward", "fast.stencil_tiles",
+    "buffers.accumulation", "fast.batch.vertex_stage", "fast.depth_only", "fast.forward", "fast.stencil_tiles",
     "geometry.triangle_setup", "raster.fill", "shade.interpolate", "shade.shading", "shade.visible_spans",
 ]  # fmt: skip
 
