@@ -1,4 +1,7 @@
-"""The vertex stage of a run: from the table of its draws to the arrays that its kernels fill."""
+"""The vertex stage of a run; equals `geometry.vertex.process_vertices`, see fast/test_batch.py.
+
+From the table of the draws to the arrays that kernels fill, in parts that threads share.
+"""
 
 from __future__ import annotations
 
