@@ -3,7 +3,8 @@
 A thousand draws of twelve triangles cost a thousand times what Python needs for one. The triangles of all draws whose
 geometry depends on the same state are set up at once, as a batch; consecutive draws under one state, a segment, are
 filled and shaded at once. Draws wait only if they cannot fail (`plan.begin_run`), so errors appear at the calls that
-make them. Clears and new texels among them wait, too: a program with many views clears a part of the window for each.
+make them. Other commands that only change what buffers contain wait among them: a program with many views clears a part
+of the window for each, one with many samples of a light accumulates the picture of each.
 """
 
 from __future__ import annotations
@@ -21,9 +22,12 @@ from softshadow.jit import announce_compiling
 from softshadow.pipeline.choose import joins_others
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
+    Accumulate,
     BeginQuery,
+    BlitFramebuffer,
     Clear,
     Command,
+    CopyToTexture,
     CreateTexture,
     DefineImage,
     DeleteTextures,
@@ -95,7 +99,8 @@ class DrawQueue:
         self._segment: Segment | None = None  # the last one, if only draws follow it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._textures: set[int] = set()  # names of those that they may read
-        self._framebuffers: set[int] = set()  # that they, and clears among them, write to
+        self._framebuffers: set[int] = set()  # that they, and commands among them, write to or read
+        self._is_kept = False  # whether a command among them has read a picture, of which a clear can begin another one
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
 
     def add(self, command: Draw) -> bool:
@@ -175,6 +180,9 @@ class DrawQueue:
             case Clear():
                 if self._add_clear(command):
                     return
+            case Accumulate() | CopyToTexture() | BlitFramebuffer():
+                if self._add_copy(command):
+                    return
             case UpdateImage() | DefineImage() if only_cells:
                 if self._add_texels(command):
                     return
@@ -197,14 +205,32 @@ class DrawQueue:
     def _add_clear(self, command: Clear) -> bool:
         """Let a clear wait behind draws; return False if no draws wait.
 
-        A clear of the whole window begins a picture, so what it hides need not wait any longer.
+        A clear of the whole window begins a picture, so what it hides need not wait any longer, unless the pictures are
+        the passes of one.
         """
         state = command.state
-        if state.draw_framebuffer == DEFAULT and command.mask & gl.GL_COLOR_BUFFER_BIT and not state.scissor.enabled:
+        is_whole = state.draw_framebuffer == DEFAULT and not state.scissor.enabled
+        if is_whole and command.mask & gl.GL_COLOR_BUFFER_BIT and not self._is_kept:
             self.carry_out()
         if not self._segments:
             return False
         self._framebuffers.add(state.draw_framebuffer)
+        self._append(command)
+        return True
+
+    def _add_copy(self, command: Accumulate | CopyToTexture | BlitFramebuffer) -> bool:
+        """Let a command wait that copies what was drawn; return False if no draws wait."""
+        if not self._segments:
+            return False
+        match command:
+            case Accumulate(state=state):
+                self._framebuffers.add(state.draw_framebuffer)
+            case CopyToTexture(framebuffer=framebuffer, texture=texture):
+                self._framebuffers.add(framebuffer)
+                self._textures.add(texture)
+            case BlitFramebuffer(read=read, draw=draw):
+                self._framebuffers.update((read, draw))
+        self._is_kept = not (isinstance(command, Accumulate) and command.operation == gl.GL_RETURN)
         self._append(command)
         return True
 
@@ -254,7 +280,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._textures, self._framebuffers = set(), set()
+        self._textures, self._framebuffers, self._is_kept = set(), set(), False
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()

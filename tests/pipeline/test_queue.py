@@ -146,6 +146,75 @@ def test_a_clear_of_the_window_carries_out_the_picture_before_it(batches):
     assert not gl.glReadPixels(0, 0, SIZE, SIZE, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)[..., 0].any()
 
 
+def test_the_samples_of_an_accumulated_picture_wait_together(batches):
+    gl.create_context(SIZE, SIZE)
+    for n in range(4):
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+        gl.glColor3ub(60 * n, 0, 0)
+        draw_triangle()
+        gl.glAccum(gl.GL_ACCUM if n else gl.GL_LOAD, 0.25)
+    gl.glAccum(gl.GL_RETURN, 1)
+    assert not batches
+    assert gl.glReadPixels(0, 0, 1, 1, gl.GL_RGB, gl.GL_UNSIGNED_BYTE).tolist() == [[[90, 0, 0]]]
+    assert batches == [4]
+
+
+def test_a_clear_of_the_window_carries_out_an_accumulated_picture(batches):
+    gl.create_context(SIZE, SIZE)
+    for operation in (gl.GL_LOAD, gl.GL_RETURN):
+        draw_triangle()
+        gl.glAccum(operation, 1)
+    assert not batches
+    gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+    assert batches == [2]
+
+
+@pytest.mark.parametrize("copy", ["copied", "blitted"])
+def test_pictures_that_are_copied_wait_together(batches, copy):
+    gl.create_context(SIZE, SIZE)
+    texture, framebuffer = int(gl.glGenTextures(1)), int(gl.glGenFramebuffers(1))
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+    gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 4, 4, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, None)
+    gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, framebuffer)
+    gl.glFramebufferTexture2D(gl.GL_DRAW_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+    gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, 0)
+    for n in range(3):
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT)
+        gl.glColor3ub(60 * n + 60, 0, 0)
+        draw_triangle()
+        if copy == "copied":
+            gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, n, 0, 0, 0, 1, 1)
+        else:
+            gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, framebuffer)
+            gl.glBlitFramebuffer(0, 0, 1, 1, n, 0, n + 1, 1, gl.GL_COLOR_BUFFER_BIT, gl.GL_NEAREST)
+            gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, 0)
+    assert not batches
+    texels = gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
+    assert batches == [3]
+    assert texels[0, :, 0].tolist() == [60, 120, 180, 0]
+
+
+@pytest.mark.parametrize("change", ["image", "buffer", "deletion"])
+def test_what_a_copy_needs_changes_after_it(batches, change):
+    gl.create_context(SIZE, SIZE)
+    form = gl.GL_RGB, gl.GL_UNSIGNED_BYTE
+    gl.glBindTexture(gl.GL_TEXTURE_2D, int(gl.glGenTextures(1)))
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 2, 1, 0, *form, None)
+    draw_triangle()
+    gl.glCopyTexSubImage2D(gl.GL_TEXTURE_2D, 0, 0, 0, 0, 0, 1, 1)
+    assert not batches
+    if change == "image":
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 4, 4, 0, *form, None)
+    elif change == "buffer":
+        gl.glReadBuffer(gl.GL_NONE)
+    else:
+        gl.glDeleteTextures([1])
+    assert batches == [1]
+    if change == "buffer":
+        assert gl.glGetTexImage(gl.GL_TEXTURE_2D, 0, *form).tolist() == [[[255] * 3, [0] * 3]]
+
+
 def test_clears_do_not_wait_without_end(batches, monkeypatch):
     monkeypatch.setattr(queue, "MOST_DRAWS", 10)
     gl.create_context(SIZE, SIZE)

@@ -27,8 +27,7 @@ from softshadow.pipeline.fast.fragment_numbers import (
     stencil_passes,
     stencil_test_of,
 )
-from softshadow.pipeline.fast.visibility_cache import VisibilityCache
-from softshadow.pipeline.memory.comparison import same_bits
+from softshadow.pipeline.fast.visibility_cache import VisibilityCache, have_same_fragments
 from softshadow.pipeline.memory.scratch import apart, scratch
 from softshadow.pipeline.memory.threads import parts_of, share
 from softshadow.pipeline.raster.fragment_ops import EQUAL, LEQUAL, LESS, NEVER, FragmentOps
@@ -177,13 +176,7 @@ def _is_within(region: Region, other: Region) -> bool:
 def _begin_with(triangles: Setup, first: int, others: Setup) -> bool:
     """Return whether the triangles from `first` on begin with the fragments of others."""
     rows = slice(first, first + len(others.ids))
-    return rows.stop <= len(triangles.ids) and _are_equal(others, Setup(*(array[rows] for array in triangles)))
-
-
-def _are_equal(a: Setup, b: Setup) -> bool:
-    """Return whether two draws have the same fragments."""
-    arrays = (a.corners, b.corners), (a.depth, b.depth), (a.front, b.front)
-    return all(same_bits(*pair) for pair in arrays)
+    return rows.stop <= len(triangles.ids) and have_same_fragments(others, Setup(*(array[rows] for array in triangles)))
 
 
 def _tested(

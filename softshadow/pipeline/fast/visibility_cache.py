@@ -6,8 +6,8 @@ tests, and the buffers before. All inputs are compared bit for bit; buffers are 
 (`Image.version`), which is lost as soon as the cells are taken. So two buffers have equal tokens only where both were
 cleared to the same value and then drawn to by the same draws.
 
-A draw is cached the second time it is seen. Entries evicted without a hit are not cached again: frames without repeated
-draws pay for one copy once.
+A draw is cached the second time it is seen, and not again after a few times without a hit, or after an entry was
+evicted without one: draws that are not repeated, or over other buffers each time, pay for few copies.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from softshadow.pipeline.shade.visible_spans import VisibleSpans
 
 CACHE_BYTES = 64 << 20  # of one storage: 50 draws that fill 640x480 pixels
 SEEN = 512  # draws whose fingerprints are known
+MOST_MISSES = 3  # times that a draw is cached without a hit
 UNREAD = "unread"  # token of a buffer that a draw does not read
 
 
@@ -59,13 +60,19 @@ class FillInputs(NamedTuple):
         """Return whether all inputs are equal, bit for bit."""
         ours, theirs = [(each.front, each.back, each.region) for each in (self, other)]
         are_equal = ours == theirs and self.depth_range.same_as(other.depth_range)
-        return are_equal and all(map(same_bits, self.triangles, other.triangles))
+        return are_equal and have_same_fragments(self.triangles, other.triangles)
 
     def fingerprint(self) -> int:
         """Return a hash of the inputs, from a few of the triangles."""
         corners, depth = self.triangles.corners, self.triangles.depth
         ends = corners[0].tobytes(), corners[-1].tobytes(), depth[0].tobytes(), depth[-1].tobytes()
         return hash((self.front, self.back, self.region, self.depth_range, len(corners), *ends))
+
+
+def have_same_fragments(a: Setup, b: Setup) -> bool:
+    """Return whether triangles have the same fragments; those of two parts of a batch have other vertices and ids."""
+    arrays = (a.corners, b.corners), (a.depth, b.depth), (a.front, b.front)
+    return all(same_bits(*pair) for pair in arrays)
 
 
 @dataclass(eq=False)
@@ -95,13 +102,14 @@ Key = tuple[int, object, object]  # fingerprint of a draw, and the tokens of dep
 
 @dataclass(eq=False)
 class VisibilityCache:
-    """The cached fills of one storage, and the fingerprints of draws that were seen: True where caching may pay.
+    """The cached fills of one storage.
 
-    `surfaces` are those of `drawn_surfaces`; `bytes` is the size of all entries.
+    `seen` are the fingerprints of draws, and how many times they were cached since their last hit; `surfaces` are those
+    of `drawn_surfaces`; `bytes` is the size of all entries.
     """
 
     entries: dict[Key, CacheEntry] = field(default_factory=dict)  # in the order of their last use
-    seen: dict[int, bool] = field(default_factory=dict)
+    seen: dict[int, int] = field(default_factory=dict)
     surfaces: list[Any] = field(default_factory=list)
     bytes: int = 0
 
@@ -113,7 +121,7 @@ class VisibilityCache:
         self.entries[key] = self.entries.pop(key)
         entry.inputs = inputs  # the same arrays as at the next draw, if the triangles are cached, too
         entry.hits += 1
-        self.seen[key[0]] = True
+        self.seen[key[0]] = 0
         return entry
 
     def evict(self, key: Key) -> None:
@@ -121,24 +129,25 @@ class VisibilityCache:
         entry = self.entries.pop(key)
         self.bytes -= entry.bytes
         if not entry.hits:
-            self.seen[key[0]] = False
+            self.seen[key[0]] = MOST_MISSES
 
     def add(self, key: Key, entry: CacheEntry) -> None:
         """Add an entry; the least recently used ones are evicted to make room."""
         replaced = self.entries.pop(key, None)
         self.entries[key] = entry
+        self.seen[key[0]] = self.seen.get(key[0], 0) + 1
         self.bytes += entry.bytes - (replaced.bytes if replaced else 0)
         while self.bytes > CACHE_BYTES:
             self.evict(next(iter(self.entries)))
 
     def pays(self, fingerprint: int) -> bool:
-        """Return whether to cache a draw: it was seen before, and was not evicted without a hit."""
+        """Return whether to cache a draw: it was seen before, and was not cached too often without a hit."""
         if fingerprint not in self.seen:
-            self.seen[fingerprint] = True
+            self.seen[fingerprint] = 0
             if len(self.seen) > SEEN:
                 del self.seen[next(iter(self.seen))]
             return False
-        return self.seen[fingerprint]
+        return self.seen[fingerprint] < MOST_MISSES
 
 
 def clear_visibility_cache(storage: Storage) -> None:

@@ -256,6 +256,29 @@ def test_entries_evicted_without_a_hit_are_not_cached_again():
     assert not cache.entries
 
 
+def test_equal_draws_that_wait_together_are_only_shaded():
+    context = gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    for _ in range(5):
+        gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
+        gl.glRectf(-0.5, -0.5, 0.5, 0.5)
+        gl.glAccum(gl.GL_ACCUM, 0.2)
+    gl.glFinish()
+    (entry,) = context.storage.visibility_cache.entries.values()
+    assert entry.hits == 3  # one was seen before, and one was cached
+
+
+def test_a_draw_over_other_depths_each_time_is_cached_a_few_times():
+    context = gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    for n in range(10):
+        gl.glClearDepth(1 - n / 100)
+        gl.glClear(gl.GL_DEPTH_BUFFER_BIT)
+        gl.glRectf(-0.5, -0.5, 0.5, 0.5)
+        gl.glFinish()
+    assert len(context.storage.visibility_cache.entries) == visibility_cache.MOST_MISSES
+
+
 def test_the_cache_stays_within_its_bytes(monkeypatch):
     monkeypatch.setattr(visibility_cache, "CACHE_BYTES", 5000)
     context, _ = frame(4, ["clear", "draw", "draw", "draw_in_box", "draw_with_offset"] * 6)
