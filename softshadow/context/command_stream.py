@@ -12,7 +12,7 @@ from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.commands import Command, Draw
+from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, Draw
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -46,6 +46,7 @@ class CommandStream:
     gate : callable or None  is asked whether a command is carried out; None: all are
     bound_samplers : tuple or None  texture units, and the samplers of the textures bound to them; None after a change
                              of a texture
+    complete_framebuffer : int or None  the last framebuffer that was found to be complete; None after a change of any
     """
 
     def __init__(self, frame: Frame, precision: Precision, compiles: bool) -> None:
@@ -54,6 +55,7 @@ class CommandStream:
         self.text: CollectedText | None = None
         self.gate: Callable[[Command], bool] | None = None
         self.bound_samplers: tuple[Any, Any] | None = None
+        self.complete_framebuffer: int | None = None
         self._queue = DrawQueue(self.objects, compiles)
         self._line_pattern = LinePattern(self.objects)
 
@@ -72,6 +74,8 @@ class CommandStream:
             if not only_cells:
                 self._line_pattern.find_place()
                 self.bound_samplers = None
+            if not only_cells or isinstance(command, OF_FRAMEBUFFERS):
+                self.complete_framebuffer = None
             self._queue.add_other(command, only_cells)
         elif not self._queue.add(command):
             execute(command, self.objects)
@@ -156,7 +160,7 @@ class CommandStream:
         """Forget what is known of the objects; no draw waits."""
         self._line_pattern.find_place()
         self._queue.forget()
-        self.bound_samplers = None
+        self.bound_samplers = self.complete_framebuffer = None
 
     def replace_window(self, width: int, height: int) -> None:
         """Replace the window by a cleared one of another size; no draw waits."""

@@ -20,7 +20,8 @@ from softshadow.gl.array_snapshots import is_current, origins, slice_of, snapsho
 from softshadow.gl.calls import execute_listed, in_lists, spelled_like_gl
 from softshadow.gl.constant_attributes import constant_attributes
 from softshadow.gl.errors import fail, is_one_of, outside_begin, wrong_enum
-from softshadow.gl.immediate import A_MODE, MODES, can_draw, consecutive_indices, glBegin, glEnd
+from softshadow.gl.framebuffers import can_draw
+from softshadow.gl.immediate import A_MODE, MODES, consecutive_indices, glBegin, glEnd
 from softshadow.gl.index_snapshots import IndexSnapshot, Rows, snapshot_indices
 from softshadow.gl.joined_draws import joined_indices, joined_ranges, joins
 from softshadow.gl.list_compiling import shares_vertices, used_rows

@@ -16,11 +16,10 @@ import numpy as np
 
 from softshadow import tokens as gl
 from softshadow.context import Context, RasterPosition, current
-from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import single, singles
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.framebuffers import can_draw
 from softshadow.gl.pixel_memory import source
 from softshadow.gl.raster_draws import (
     EDGES,
@@ -211,9 +210,7 @@ def _bitmap(
     (x, y, z, w), valid, distance, color, secondary, texcoords = context.current.raster
     if not valid:
         return
-    name = context.groups[""].fields["draw_framebuffer"]
-    if name != DEFAULT and framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
-        fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glBitmap", f"framebuffer {name} is not complete")
+    if not can_draw(context, "glBitmap"):
         return
     # each sum of two numbers in single precision is rounded once
     if is_rendered(context, gl.GL_BITMAP_TOKEN) and pixels is not None and pixels.has_bits:

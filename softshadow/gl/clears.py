@@ -9,7 +9,7 @@ from softshadow.context import thread
 from softshadow.gl.calls import is_allowed, spelled_like_gl
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.fragment_state import clamp01, rounded
-from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.framebuffers import can_draw
 from softshadow.pipeline.commands import Clear
 
 BUFFER_BITS = gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT | gl.GL_STENCIL_BUFFER_BIT | gl.GL_ACCUM_BUFFER_BIT
@@ -51,10 +51,7 @@ def glClear(mask: int) -> None:
     if mask & OTHER_BITS:
         fail(gl.GL_INVALID_VALUE, "glClear", f"mask=0x{mask:X}: expected only buffer bits")
         return
-    name = context.groups[""].fields["draw_framebuffer"]
-    if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
-        fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, "glClear", f"framebuffer {name} is not complete")
-    else:
+    if can_draw(context, "glClear"):
         context.execute(Clear(context.state, int(mask)))
 
 

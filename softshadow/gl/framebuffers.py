@@ -161,6 +161,25 @@ def framebuffer_status(context: Context, framebuffer: int) -> int:
     return gl.GL_FRAMEBUFFER_COMPLETE if attachments else gl.GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT
 
 
+def can_be_drawn_to(context: Context) -> bool:
+    """Return whether the draw framebuffer is complete."""
+    name, stream = context.groups[""].fields["draw_framebuffer"], context.stream
+    if name not in (DEFAULT, stream.complete_framebuffer):
+        if framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
+            return False
+        stream.complete_framebuffer = name
+    return True
+
+
+def can_draw(context: Context, operation: str) -> bool:
+    """Return whether the draw framebuffer is complete; otherwise the call fails."""
+    if can_be_drawn_to(context):
+        return True
+    name = context.groups[""].fields["draw_framebuffer"]
+    fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {name} is not complete")
+    return False
+
+
 def depth_and_stencil_differ(target: Framebuffer) -> bool:
     """Return whether depth and stencil are attached from two objects, which Gallium drivers do not support."""
     attachments = [target.attachments[point] for point in KINDS if point in target.attachments]
@@ -257,7 +276,7 @@ def glDrawBuffers(*arguments: Any) -> None:
     for index, mode in enumerate(modes):
         if problem := _several_problem(name, modes, index) or _buffer_problem(name, mode):
             return fail(problem[0], operation, problem[1])
-    context.execute(SelectBuffers(name, draw_buffers=tuple(modes)))
+    _select_buffers(context, SelectBuffers(name, draw_buffers=tuple(modes)))
     return None
 
 
@@ -282,8 +301,16 @@ def _select(operation: str, which: str, mode: int) -> None:
     name = context.state.draw_framebuffer if drawn else context.state.read_framebuffer
     if problem := _buffer_problem(name, mode):
         return fail(problem[0], operation, problem[1])
-    context.execute(SelectBuffers(name, draw_buffers=(mode,)) if drawn else SelectBuffers(name, read_buffer=mode))
+    _select_buffers(context, SelectBuffers(name, (mode,)) if drawn else SelectBuffers(name, read_buffer=mode))
     return None
+
+
+def _select_buffers(context: Context, command: SelectBuffers) -> None:
+    """Execute a command, unless the buffers are selected already: programs select them for each picture."""
+    target = context.objects.framebuffers[command.framebuffer]
+    is_new = command.draw_buffers not in (None, target.draw_buffers)
+    if is_new or command.read_buffer not in (None, target.read_buffer):
+        context.execute(command)
 
 
 def _buffer_problem(framebuffer: int, mode: int) -> Problem | None:

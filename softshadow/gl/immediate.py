@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from softshadow import tokens as gl
-from softshadow.context import Context, current, thread
+from softshadow.context import current, thread
 from softshadow.framebuffer import DEFAULT
 from softshadow.gl.calls import in_lists, is_allowed, record, spelled_like_gl
 from softshadow.gl.conversions import vector
 from softshadow.gl.deferred_pairs import defer
 from softshadow.gl.errors import fail, is_one_of, outside_begin
-from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.framebuffers import can_draw
 from softshadow.gl.materials import follow_color
 from softshadow.gl.pair_numbers import add_resumed, collect_pair, counted_mode, is_collected, resume
 from softshadow.gl.refusals import CONVERTING, refusal
@@ -23,15 +23,6 @@ from softshadow.pipeline.mesa.driver_draws import SEPARATE
 
 MODES = frozenset(range(gl.GL_POINTS, gl.GL_POLYGON + 1))
 A_MODE = "GL_POINTS … GL_POLYGON"
-
-
-def can_draw(context: Context, operation: str) -> bool:
-    """Return whether the draw framebuffer is complete; otherwise the call fails."""
-    name = context.groups[""].fields["draw_framebuffer"]
-    if name == DEFAULT or framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
-        return True
-    fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {name} is not complete")
-    return False
 
 
 def glBegin(mode: int) -> None:

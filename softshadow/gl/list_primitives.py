@@ -17,10 +17,9 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.context import Context, current
 from softshadow.context.arrays import COLOR, NORMAL, POSITION, SLOT_NAMES, TEXCOORD
-from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantAttribute, ConstantSet, DrawnVertices, constant_attributes
 from softshadow.gl.errors import GLError, fail
-from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.framebuffers import can_be_drawn_to
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
 from softshadow.gl.moved_draws import draw_maybe_later
@@ -257,8 +256,7 @@ def is_between_primitives(context: Context) -> bool:
             return False
     elif buffer.n_vertices or buffer.joined_pairs is not None:
         return False
-    name = context.groups[""].fields["draw_framebuffer"]  # without settling colours that materials follow
-    if name != DEFAULT and framebuffer_status(context, name) != gl.GL_FRAMEBUFFER_COMPLETE:
+    if not can_be_drawn_to(context):
         return False
     buffer.sizes.clear()
     return True

@@ -10,7 +10,6 @@ import numpy as np
 
 from softshadow.context import Context
 from softshadow.context.late_draws import MovedDraw
-from softshadow.framebuffer import DEFAULT
 from softshadow.pipeline.commands import Draw, Vertices
 
 MOST_VERTICES = 256  # of a draw that waits: of more, its own work is most of the time
@@ -62,7 +61,7 @@ def _is_continued(context: Context, before: Draw) -> bool:
 def _may_be_continued(context: Context, command: Draw) -> bool:
     """Return whether draws that continue a draw may be late: they cannot fail, and nobody is told about them."""
     state, is_plain = command.state, context.current.is_plain
-    if state.program or state.lines.stippled or state.draw_framebuffer != DEFAULT:
+    if state.program or state.lines.stippled:
         return False
     return is_plain and context.has_followed(state) and is_unmarked(context)
 

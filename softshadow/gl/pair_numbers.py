@@ -14,7 +14,6 @@ from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
 from softshadow.context.joined_pairs import LateVertices, Told
 from softshadow.context.late_draws import NO_VERTICES, LateDraw, LateForm
-from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import Carried, carried_of, kept_constants
 from softshadow.gl.moved_draws import is_unmarked
 from softshadow.gl.vertex_format import vertices_of
@@ -117,7 +116,7 @@ def _new_form(context: Context, mode: int, carried: Carried, like: Draw | None) 
     if carried.optional or not current.is_plain or not context.has_followed(state):
         return None
     if like is None:
-        if state.program or state.draw_framebuffer != DEFAULT or offset_depends_on_mode(state):
+        if state.program or offset_depends_on_mode(state):
             return None
         like = context.draw_command(mode, NO_VERTICES)
     texcoords = kept_constants(context).find_texcoords(context, carried.units)

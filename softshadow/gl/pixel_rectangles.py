@@ -19,7 +19,7 @@ from softshadow.gl.calls import in_lists, spelled_like_gl
 from softshadow.gl.conversions import singles
 from softshadow.gl.depth_rectangles import copy_depths, draw_rectangle_of_depths, texture_of_depths
 from softshadow.gl.errors import fail, outside_begin
-from softshadow.gl.framebuffers import framebuffer_status
+from softshadow.gl.framebuffers import can_draw, framebuffer_status
 from softshadow.gl.pixel_formats import kind_of, pixels_problem
 from softshadow.gl.pixel_memory import image_source
 from softshadow.gl.render_modes import is_rendered
@@ -93,7 +93,7 @@ def _draw_pixels(width: int, height: int, format: int, type: int, image: np.ndar
         fail(problem[0], operation, problem[1])
     elif missing := _missing_buffer(context, format):
         fail(gl.GL_INVALID_OPERATION, operation, missing)
-    elif _is_complete(context, operation) and context.current.raster.valid:
+    elif can_draw(context, operation) and context.current.raster.valid:
         if not is_rendered(context, gl.GL_DRAW_PIXEL_TOKEN) or image is None:
             return
         if kind_of(format) == "color":
@@ -171,7 +171,7 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
         fail(gl.GL_INVALID_ENUM, operation, f"type={token_name(type)}: expected GL_COLOR … GL_DEPTH_STENCIL")
         return
     source = context.objects.framebuffers[context.state.read_framebuffer]
-    if not _is_complete(context, operation):
+    if not can_draw(context, operation):
         return
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
@@ -202,14 +202,6 @@ def glCopyPixels(x: int, y: int, width: int, height: int, type: int) -> None:
         order = -1 if source.flipped else 1  # rows of Mesa's texture
         colors = transfer.drawn_color(color_as_float(colors[::order]))[::order]
     _draw(context, colors if transfer.changes_color else colors.copy(), left, bottom)
-
-
-def _is_complete(context: Context, operation: str) -> bool:
-    name = context.state.draw_framebuffer
-    if framebuffer_status(context, name) == gl.GL_FRAMEBUFFER_COMPLETE:
-        return True
-    fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {name} is not complete")
-    return False
 
 
 def _draw(context: Context, cells: np.ndarray, left: int = 0, bottom: int = 0) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 
 from softshadow.context import Context
 from softshadow.context.arrays import SLOTS
-from softshadow.framebuffer import DEFAULT
 from softshadow.gl.constant_attributes import ConstantSet, DrawnVertices, carried_of, constant_attributes
+from softshadow.gl.framebuffers import can_be_drawn_to
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.gl.vertex_format import REST, TEXCOORDS, begin_format
 from softshadow.pipeline.commands import Draw, Vertices, draws_like
@@ -185,7 +185,7 @@ def first_pairs(
         return similar_pairs(context, sizes)
     if buffer.joined_pairs is not None or "position" in buffer.sizes:
         return None
-    if context.groups[""].fields["draw_framebuffer"] != DEFAULT:
+    if not can_be_drawn_to(context):
         return None
     if mode in SEPARATE or not FEWEST <= count < buffer.room_for(sizes) - 2:
         return None

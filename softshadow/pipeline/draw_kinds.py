@@ -11,10 +11,12 @@ from collections.abc import Callable, Hashable
 from itertools import count
 from typing import NamedTuple
 
-from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.framebuffer import Framebuffer, Storage, attached_image
+from softshadow.image import Image
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
     Accumulate,
+    AttachTexture,
     BeginQuery,
     BlitFramebuffer,
     Clear,
@@ -222,7 +224,17 @@ def _key_without_tests(command: Draw, textures: Textures) -> tuple[Hashable, ...
 
 def changes_cells_only(command: Command, storage: Storage) -> bool:
     """Return whether a command that is no draw leaves sizes, formats and parameters as they are."""
-    if type(command) is not DefineImage:
-        return type(command) in CELLS_ONLY
-    before = storage.textures[command.texture].images.get((command.face, command.level))
-    return before is not None and all(getattr(before, name) == getattr(command, name) for name in SHAPE)
+    if isinstance(command, DefineImage):
+        before = storage.textures[command.texture].images.get((command.face, command.level))
+        return before is not None and _same_shape(before, command)
+    if isinstance(command, AttachTexture) and command.texture:
+        attached = storage.framebuffers[command.framebuffer].attachments.get(command.attachment)
+        image = storage.textures[command.texture].images.get((command.face, command.level))
+        if attached is None or image is None:
+            return False
+        return _same_shape(attached.image, attached_image(image, command.attachment))
+    return type(command) in CELLS_ONLY
+
+
+def _same_shape(image: Image, other: Image | DefineImage) -> bool:
+    return all(getattr(image, name) == getattr(other, name) for name in SHAPE)

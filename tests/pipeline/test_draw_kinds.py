@@ -25,6 +25,29 @@ def has_bits_of_single_draws(drawn: Callable[[], Context]) -> bool:
     return buffers() == expected
 
 
+def test_buffers_and_attachments_of_one_shape_need_no_new_plan(planned):
+    gl.create_context(SIZE, SIZE)
+    load_texture(1, 10)
+    load_texture(2, 20)
+    framebuffer = gl.glGenFramebuffers(1)
+    for _ in range(3):
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+        for texture in (1, 2):
+            gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+            gl.glDrawBuffer(gl.GL_COLOR_ATTACHMENT0)
+            draw_triangle()
+        gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        gl.glDrawBuffer(gl.GL_FRONT)
+        gl.glReadBuffer(gl.GL_FRONT)
+        draw_triangle()
+    gl.glFinish()
+    assert len(planned) == 2  # of the framebuffer, and of the window
+    gl.glDrawBuffer(gl.GL_NONE)
+    draw_triangle()
+    gl.glFinish()
+    assert len(planned) == 3
+
+
 def test_kinds_are_forgotten_with_their_texture_or_framebuffer(planned):
     gl.create_context(SIZE, SIZE)
     framebuffer = gl.glGenFramebuffers(1)
@@ -39,6 +62,7 @@ def test_kinds_are_forgotten_with_their_texture_or_framebuffer(planned):
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
         draw_triangle()
         gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
+        gl.glFinish()
         return len(planned)
 
     for name in (1, 2, 3, 4):
