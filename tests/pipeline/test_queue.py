@@ -258,6 +258,18 @@ def test_large_draws_of_one_kind_are_set_up_together(batches):
     assert batches == [5]
 
 
+def test_long_lines_under_other_states_wait_together(batches):
+    gl.create_context(SIZE, SIZE)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((WORTH_COMPARING, 3), np.float32))
+    for n in range(6):
+        (gl.glEnable if n % 2 else gl.glDisable)(gl.GL_LINE_SMOOTH)
+        gl.glDrawArrays(gl.GL_POINTS if n % 3 else gl.GL_LINE_STRIP, 0, WORTH_COMPARING)
+    assert not batches
+    gl.glFinish()
+    assert sum(batches) == 6
+
+
 def test_spheres_under_other_states_wait_together(batches):
     """Their strips are a draw of many vertices, but few programs draw the same sphere again in a pass of its own."""
     quadric = gl.gluNewQuadric()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 
 from softshadow import matrices
@@ -62,7 +64,12 @@ def is_outlined_alone(command: Draw) -> bool:
 
 
 def least_compared(command: Draw) -> int:
-    """Return how many vertices make a draw worth comparing with recent ones: it may be drawn in several passes."""
+    """Return how many vertices make a draw worth comparing with recent ones: it may be drawn in several passes.
+
+    Lines and points are not compared.
+    """
+    if width_of(command.mode) < WIDTH_OF_POLYGONS:
+        return sys.maxsize
     return STRIPS_WORTH_COMPARING if command.pairs_mode else WORTH_COMPARING
 
 
