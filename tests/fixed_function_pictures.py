@@ -18,7 +18,13 @@ FORMATS = (
     gl.GL_RGBA, gl.GL_RGB, gl.GL_LUMINANCE, gl.GL_LUMINANCE_ALPHA, gl.GL_ALPHA, gl.GL_INTENSITY, gl.GL_RED, gl.GL_RG,
 )  # fmt: skip
 DEPTH_FORMATS = (gl.GL_DEPTH_COMPONENT16, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_COMPONENT32, gl.GL_DEPTH_COMPONENT32F)
+FLOAT_FORMATS = (
+    gl.GL_RGBA32F, gl.GL_RGB16F, gl.GL_R32F, gl.GL_LUMINANCE_ALPHA16F_ARB, gl.GL_RGBA16, gl.GL_ALPHA16,
+    gl.GL_SRGB8_ALPHA8, gl.GL_SRGB8,
+)  # fmt: skip
+TEXELS = 0.0, 1.0  # the least and the largest one
 DEPTH_SHARE = 0.3  # of the textures
+COORDINATES = 1.0  # about the largest ones
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
 TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP)
 MODES = (gl.GL_MODULATE, gl.GL_REPLACE, gl.GL_DECAL, gl.GL_BLEND, gl.GL_ADD, gl.GL_COMBINE)
@@ -82,7 +88,7 @@ def random_texture(rng, unit):
     level = 0
     while True:
         n_images = 6 if target == gl.GL_TEXTURE_CUBE_MAP else slices
-        texels = rng.random((n_images, height, width, channels)).astype(np.float32)
+        texels = rng.uniform(*TEXELS, (n_images, height, width, channels)).astype(np.float32)
         if target == gl.GL_TEXTURE_3D:
             gl.glTexImage3D(target, level, internal, width, height, slices, 0, format, gl.GL_FLOAT, texels)
         elif target == gl.GL_TEXTURE_CUBE_MAP:
@@ -204,7 +210,8 @@ def random_picture(
         gl.glDisable(gl.GL_FOG)
     gl.glShadeModel(gl.GL_SMOOTH if rng.random() < 0.8 else gl.GL_FLAT)
     gl.glMatrixMode(gl.GL_TEXTURE)
-    gl.glLoadMatrixf(np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32))
+    scale = np.diag([COORDINATES, COORDINATES, 1, 1]).astype(np.float32)  # of the columns, which are GL's rows
+    gl.glLoadMatrixf((np.eye(4, dtype=np.float32) + rng.normal(0, 0.1, (4, 4)).astype(np.float32)) @ scale)
     if special:
         random_special_fragments(rng)
     tests = random_state(rng, context.state)

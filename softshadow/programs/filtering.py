@@ -103,12 +103,16 @@ def texels_of(
     as_bytes = as_bytes or not image.format.has_few_bits
     cells = image.cells if as_bytes else cells_in_float(image)
     cells = cells if cells.ndim == 3 else cells[:, :, np.newaxis]
+    unit = unit_of(image.format, real) if as_bytes else real.type(ONE)
+    return cells, border_of(image.format, sampler, real), unit
+
+
+def border_of(format: Format, sampler: Sampler, real: np.dtype) -> np.ndarray:
+    """Return the border colour (4,) of images of a format, clamped to the values that it can store."""
     border = np.array(sampler.border_color, real)
-    if image.format.is_clamped:
-        border = border.clip(ZERO, ONE)
-    elif image.format.encoding == "snorm":
-        border = border.clip(-ONE, ONE)
-    return cells, border, unit_of(image.format, real) if as_bytes else real.type(ONE)
+    if format.is_clamped:
+        return border.clip(ZERO, ONE)
+    return border.clip(-ONE, ONE) if format.encoding == "snorm" else border
 
 
 _in_float: WeakKeyDictionary[Image, tuple[Hashable, np.ndarray]] = WeakKeyDictionary()

@@ -14,6 +14,7 @@ from softshadow.pipeline.fast.fragment_block import (
     LENGTH,
     LEVEL,
     LINEAR,
+    NEXT,
     PITCH,
     T_AXIS,
     TEXEL,
@@ -26,7 +27,14 @@ from softshadow.pipeline.fast.fragment_block import (
     T,
     W,
 )
-from softshadow.pipeline.fast.span_linear import CODES, are_linear, code_of, filter_linearly
+from softshadow.pipeline.fast.span_linear import (
+    CODES,
+    are_linear,
+    begin_upper_level_in_float,
+    code_of,
+    filter_linearly,
+    mix_levels,
+)
 from softshadow.pipeline.fast.span_places import ONE_TEXEL, nearest_places, write_places
 from softshadow.pipeline.fast.span_state import (
     BORDER,
@@ -34,6 +42,7 @@ from softshadow.pipeline.fast.span_state import (
     COMPARISON,
     HEIGHT,
     IS_DEPTH,
+    IS_WIDE,
     LEVEL_OFFSETS,
     PACKED_LEVELS,
     ROW_LENGTH,
@@ -42,7 +51,7 @@ from softshadow.pipeline.fast.span_state import (
     WRAP_S,
     WRAP_T,
 )
-from softshadow.programs.wrapping import linear_texels, nearest_texel
+from softshadow.programs.wrapping import linear_texels, linear_texels_at, nearest_texel, nearest_texel_at
 
 NO_BORDER = np.int32(-1)  # as a place: outside the image
 
@@ -75,8 +84,11 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
 @kernel
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels, filtered in float, with borders and comparisons of depths."""
-    if are_linear(count, room, whole):
+    if are_linear(count, whole):
         filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+        if begin_upper_level_in_float(count, room, whole):
+            filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+            mix_levels(count, room)
         return
     for m in range(count):
         n = np.uint64(m)
@@ -103,12 +115,20 @@ def texel_of_level(switches, numbers, unit, number, level, linear, s, t, r, texe
     if switches[unit + CLAMPED] != 0 and switches[unit + COMPARISON]:
         r = r if r > ZERO else ZERO
         r = r if r < ONE else ONE
+    wrap_s, wrap_t = switches[unit + WRAP_S], switches[unit + WRAP_T]
     if not linear:
-        i, j = nearest_texel(s, width, switches[unit + WRAP_S]), nearest_texel(t, height, switches[unit + WRAP_T])
+        if wrap_s < 0:
+            i, j = nearest_texel_at(s, width, -wrap_s), nearest_texel_at(t, height, -wrap_t)
+        else:
+            i, j = nearest_texel(s, width, wrap_s), nearest_texel(t, height, wrap_t)
         place = place_of(np.int64(i), np.int64(j), width, height, pitch, offset, texels)
         return channels_of(switches, numbers, unit, number, place, r, ONE, texels)
-    i0, i1, x = linear_texels(s, width, switches[unit + WRAP_S])
-    j0, j1, y = linear_texels(t, height, switches[unit + WRAP_T])
+    if wrap_s < 0:
+        i0, i1, x = linear_texels_at(s, width, -wrap_s)
+        j0, j1, y = linear_texels_at(t, height, -wrap_t)
+    else:
+        i0, i1, x = linear_texels(s, width, wrap_s)
+        j0, j1, y = linear_texels(t, height, wrap_t)
     at_00 = place_of(np.int64(i0), np.int64(j0), width, height, pitch, offset, texels)
     at_10 = place_of(np.int64(i1), np.int64(j0), width, height, pitch, offset, texels)
     at_01 = place_of(np.int64(i0), np.int64(j1), width, height, pitch, offset, texels)
@@ -146,6 +166,9 @@ def channels_of(switches, numbers, unit, number, place, r, share, texels):
         if place < 0:
             at = number + BORDER
             return numbers[at], numbers[at + 1], numbers[at + 2], numbers[at + 3]
+        if switches[unit + IS_WIDE]:
+            values, at = texels.view(np.float32), np.uint64(min(4 * place, len(texels) - 4))
+            return values[at], values[at + NEXT], values[at + NEXT + NEXT], values[at + NEXT + NEXT + NEXT]
         texel = np.int64(texels[np.uint64(place)])
         red, green = np.float32(np.int32(texel & 255)) * step, np.float32(np.int32(texel >> 8 & 255)) * step
         blue, alpha = np.float32(np.int32(texel >> 16 & 255)) * step, np.float32(np.int32(texel >> 24 & 255)) * step

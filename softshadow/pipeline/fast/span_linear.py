@@ -16,7 +16,9 @@ from softshadow.pipeline.fast.fragment_block import (
     FILTERED,
     FIRST,
     LENGTH,
+    LEVEL,
     LINEAR,
+    LOWER_TEXEL,
     ROW,
     SECOND,
     SQUARED,
@@ -33,34 +35,64 @@ from softshadow.pipeline.fast.fragment_block import (
 )
 from softshadow.pipeline.fast.span_bytes import BYTE, gather
 from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, write_corners, write_places
-from softshadow.pipeline.fast.span_state import BORDER, CLAMPED, COMPARISON, IS_DEPTH, STEP, WRAP_S, WRAP_T
+from softshadow.pipeline.fast.span_state import BORDER, CLAMPED, COMPARISON, IS_DEPTH, IS_WIDE, STEP, WRAP_S, WRAP_T
 from softshadow.programs.wrapping import REPEAT_BY_MASK, mirror, to_int32
 from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
 
 LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
 OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
 X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
+FOUR = np.uint32(2)  # as a shift
 
 
 @kernel
-def are_linear(count, room, whole):
-    """Return whether the filters of all fragments are linear, on one level each."""
-    all_linear, heaviest = ONE_TEXEL, ZERO
+def are_linear(count, whole):
+    """Return whether the filters of all fragments are linear."""
+    all_linear = ONE_TEXEL
     for n in range(np.uint64(count)):
         all_linear = min(all_linear, np.int32(whole[LINEAR + n] != NOTHING))
+    return all_linear != NOTHING
+
+
+@kernel
+def begin_upper_level_in_float(count, room, whole):
+    """Keep the texels as those of the lower level, and let LEVEL be the upper one; return whether any is mixed."""
+    heaviest = ZERO
     for n in range(np.uint64(count)):
         heaviest = room[WEIGHT + n] if room[WEIGHT + n] > heaviest else heaviest
-    return all_linear != NOTHING and heaviest == ZERO
+    if heaviest == ZERO:
+        return False
+    for n in range(np.uint64(count)):
+        whole[LEVEL + n] += ONE_TEXEL if room[WEIGHT + n] > ZERO else NOTHING
+    for channel in range(4):
+        row = np.uint64(channel) * ROW
+        for n in range(np.uint64(count)):
+            room[LOWER_TEXEL + row + n] = room[TEXEL + row + n]
+    return True
+
+
+@kernel
+def mix_levels(count, room):
+    """Mix the texels of two levels by WEIGHT, where it is not 0."""
+    for channel in range(4):
+        row = np.uint64(channel) * ROW
+        for n in range(np.uint64(count)):
+            weight, lower = room[WEIGHT + n], room[LOWER_TEXEL + row + n]
+            mixed = weight * (room[TEXEL + row + n] - lower) + lower
+            room[TEXEL + row + n] = mixed if weight > ZERO else lower
 
 
 @kernel
 def filter_linearly(switches, numbers, unit, number, count, texels, room, whole):
-    """Write the texels of linear filters; of depths, only the first channel."""
+    """Write the texels of linear filters on one level each; of depths, only the first channel."""
     write_places(switches, unit, count, whole)
     linear_places_in_float(S, np.uint64(0), switches[unit + WRAP_S], X_WEIGHT, count, room, whole)
     linear_places_in_float(T, T_AXIS, switches[unit + WRAP_T], Y_WEIGHT, count, room, whole)
     note_outside(count, whole)
     write_corners(count, whole)
+    if switches[unit + IS_WIDE]:
+        mix_floats(numbers, number, count, texels.view(np.float32), room, whole)
+        return
     if not switches[unit + IS_DEPTH]:
         mix_colors(numbers, number, count, texels, room, whole)
         return
@@ -100,20 +132,21 @@ def linear_places_in_float(coordinate, axis, wrap, weight, count, room, whole):
             i = to_int32(np.floor(u))
             whole[first + n], whole[second + n] = max(i, NOTHING), min(np.int32(i + 1), last)
             room[weight + n] = u - np.floor(u)
-    elif wrap == GL_CLAMP_TO_EDGE:
+    elif abs(wrap) == GL_CLAMP_TO_EDGE:
+        in_texels = wrap < 0
         for n in range(np.uint64(count)):
             size, last = np.float32(whole[length + n]), np.int32(whole[length + n] - 1)
-            u = room[coordinate + n] * size
+            u = room[coordinate + n] * (ONE if in_texels else size)
             u = (u if u < size else size) - HALF
             u = u if u > ZERO else ZERO
             i = to_int32(u)
             whole[first + n], whole[second + n] = i, min(np.int32(i + 1), last)
             room[weight + n] = u - np.floor(u)
     else:
-        clamps = wrap == GL_CLAMP
+        clamps, in_texels = abs(wrap) == GL_CLAMP, wrap < 0
         for n in range(np.uint64(count)):
             size = np.float32(whole[length + n])
-            u = room[coordinate + n] * size
+            u = room[coordinate + n] * (ONE if in_texels else size)
             if clamps:
                 u = u if u < size else size  # NaN too
                 u = u if u > ZERO else ZERO
@@ -157,6 +190,27 @@ def mix_colors(numbers, number, count, texels, room, whole):
             c, d = border if out & OUT_01 else c, border if out & OUT_11 else d
             a, c = x * (b - a) + a, x * (d - c) + c
             room[row + n] = y * (c - a) + a
+
+
+@kernel
+def mix_floats(numbers, number, count, values, room, whole):
+    """Write the four channels of a colour texture of floats, four `values` for each texel."""
+    largest = np.uint32((len(values) >> 2) - 1)
+    for n in range(np.uint64(count)):
+        whole[CORNER_00 + n] = np.int32(min(np.uint32(whole[CORNER_00 + n]), largest) << FOUR)
+        whole[CORNER_10 + n] = np.int32(min(np.uint32(whole[CORNER_10 + n]), largest) << FOUR)
+        whole[CORNER_01 + n] = np.int32(min(np.uint32(whole[CORNER_01 + n]), largest) << FOUR)
+        whole[CORNER_11 + n] = np.int32(min(np.uint32(whole[CORNER_11 + n]), largest) << FOUR)
+    for c in range(4):
+        channel, border = np.uint64(c), numbers[number + BORDER + c]
+        for n in range(np.uint64(count)):
+            x, y, out = room[X_WEIGHT + n], room[Y_WEIGHT + n], whole[OUTSIDE + n]
+            a, b = values[np.uint64(whole[CORNER_00 + n]) + channel], values[np.uint64(whole[CORNER_10 + n]) + channel]
+            e, f = values[np.uint64(whole[CORNER_01 + n]) + channel], values[np.uint64(whole[CORNER_11 + n]) + channel]
+            a, b = border if out & OUT_00 else a, border if out & OUT_10 else b
+            e, f = border if out & OUT_01 else e, border if out & OUT_11 else f
+            a, e = x * (b - a) + a, x * (f - e) + e
+            room[TEXEL + channel * ROW + n] = y * (e - a) + a
 
 
 @kernel

@@ -1,6 +1,7 @@
 """Places of texels of a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
 From texture coordinates to the numbers of texels on each axis, with the operations of `softshadow.programs.wrapping`.
+Coordinates of rectangles are texels: then the wrap mode is negated.
 """
 
 import numpy as np
@@ -22,7 +23,7 @@ from softshadow.pipeline.fast.fragment_block import (
     T_AXIS,
 )
 from softshadow.pipeline.fast.span_state import HEIGHT, LEVEL_OFFSETS, PACKED_LEVELS, ROW_LENGTH, SLICES, WIDTH
-from softshadow.programs.wrapping import BELOW_ONE, FIXED_ONE, REPEAT_BY_MASK, mirror, to_int32
+from softshadow.programs.wrapping import BELOW_ONE, FIXED_ONE, ONE, REPEAT_BY_MASK, mirror, to_int32
 from softshadow.tokens import GL_CLAMP_TO_BORDER, GL_MIRRORED_REPEAT, GL_REPEAT
 
 HALF_TEXEL, STEPS_PER_TEXEL = np.int32(128), np.int32(256)
@@ -99,8 +100,10 @@ def linear_places(coordinate, axis, wrap, count, room, whole):
             whole[second + n] = np.int32(i + 1) & last
             whole[fraction + n] = position & 255
     else:
+        in_texels = wrap < 0
         for n in range(np.uint64(count)):
-            last, steps = np.int32(whole[length + n] - 1), np.float32(np.int32(whole[length + n] * STEPS_PER_TEXEL))
+            last, side = np.int32(whole[length + n] - 1), ONE_TEXEL if in_texels else whole[length + n]
+            steps = np.float32(np.int32(side * STEPS_PER_TEXEL))
             position = np.int32(to_int32(np.rint(room[coordinate + n] * steps)) - HALF_TEXEL)
             i = np.int32(position >> 8)
             after = np.int32(i + 1)
@@ -121,17 +124,17 @@ def nearest_places(coordinate, axis, wrap, place, count, room, whole):
         for n in range(np.uint64(count)):
             part = room[coordinate + n] - np.floor(room[coordinate + n])
             whole[nearest + n] = to_int32((part if part < BELOW_ONE else BELOW_ONE) * np.float32(whole[length + n]))
-    elif wrap == GL_CLAMP_TO_BORDER:
+    elif abs(wrap) == GL_CLAMP_TO_BORDER:
+        in_texels = wrap < 0
         for n in range(np.uint64(count)):
-            whole[nearest + n] = to_int32(np.floor(room[coordinate + n] * np.float32(whole[length + n])))
+            side = ONE if in_texels else np.float32(whole[length + n])
+            whole[nearest + n] = to_int32(np.floor(room[coordinate + n] * side))
     elif wrap == GL_MIRRORED_REPEAT:
         for n in range(np.uint64(count)):
             last, distance = np.int32(whole[length + n] - 1), mirror(room[coordinate + n])
             whole[nearest + n] = min(to_int32(distance * np.float32(whole[length + n])), last)
     else:
+        in_texels = wrap < 0
         for n in range(np.uint64(count)):
-            last, texel = (
-                np.int32(whole[length + n] - 1),
-                to_int32(room[coordinate + n] * np.float32(whole[length + n])),
-            )
-            whole[nearest + n] = min(max(texel, NOTHING), last)
+            last, side = np.int32(whole[length + n] - 1), ONE if in_texels else np.float32(whole[length + n])
+            whole[nearest + n] = min(max(to_int32(room[coordinate + n] * side), NOTHING), last)

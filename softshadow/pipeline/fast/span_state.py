@@ -2,8 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(rectangular textures, those of floats, cube maps that are seamless or of depths, borders of 1-D and 3-D textures, more
-than four units ...) is shaded by the textbook.
+(cube maps, 1-D and 3-D textures of floats, cube maps that are seamless or of depths, borders of 1-D and 3-D textures,
+anisotropic filters, more than four units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
 from softshadow.pixels import LARGEST_UINT
 from softshadow.programs.box_filtering import box_wraps
-from softshadow.programs.filtering import in_8_bits, sources_of, unit_of, wraps_of
+from softshadow.programs.filtering import border_of, in_8_bits, sources_of, unit_of, wraps_of
 from softshadow.programs.fixed_function import Unit, has_secondary, repeats_primary
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
@@ -34,7 +34,7 @@ UNITS = 4  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 68
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 69
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
@@ -44,6 +44,7 @@ COMBINED = 40  # where the two functions of GL_COMBINE begin
 SLICES, WRAP_R = 62, 63  # of a 3-D texture
 IS_CUBE, BY_RECIPROCAL, BY_PIXEL = 64, 65, 66  # how directions are projected, and what has a level of its own
 IS_LINE = 67  # whether the texture is 1-D, so that t has no part in the level of detail
+IS_WIDE = 68  # whether a texel is four floats, not four bytes or a depth
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
@@ -185,7 +186,9 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     texture, setting = unit.texture, state.units[unit.index]
     image, sampler = texture.base(), texture.sampler
     assert image is not None
-    is_depth, is_flat = image.format.kind == "depth", texture.target == gl.GL_TEXTURE_2D
+    is_depth, is_wide = image.format.kind == "depth", image.format.kind == "float"
+    in_texels = texture.target == gl.GL_TEXTURE_RECTANGLE
+    is_flat = in_texels or texture.target == gl.GL_TEXTURE_2D
     is_box, is_cube = texture.target == gl.GL_TEXTURE_3D, texture.target == gl.GL_TEXTURE_CUBE_MAP
     is_line = texture.target == gl.GL_TEXTURE_1D
     if (
@@ -198,7 +201,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     ):
         return False
     first = texture.images.get((0, 0)) or image
-    wraps = box_wraps(texture, first) if is_box else ON_FACES if is_cube else wraps_of(sampler, first)
+    wraps = box_wraps(texture, first) if is_box or in_texels else ON_FACES if is_cube else wraps_of(sampler, first)
     if is_line:
         wraps = wraps[0], gl.GL_CLAMP_TO_EDGE  # the only row
     if image.format.has_few_bits and not in_8_bits(image, wraps):
@@ -209,15 +212,18 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     mixes_bytes = in_8_bits(image, wraps)
     if compares and not linear and not needs_blocks(texture):
         switches[PATH] = NEAREST_DEPTH
-    elif is_depth or not (
-        mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps)
+    elif (
+        is_depth
+        or is_wide
+        or not (mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps))
     ):
         if not is_flat:
             return False
         switches[PATH] = IN_FLOAT
     else:
         switches[PATH] = IN_BYTES
-    switches[WRAP_S : WRAP_T + 1], switches[IS_LINE] = wraps[:2], is_line
+    switches[WRAP_S : WRAP_T + 1] = [-wrap for wrap in wraps] if in_texels else wraps[:2]
+    switches[IS_LINE], switches[IS_WIDE] = is_line, is_wide
     if is_cube:
         switches[IS_CUBE : BY_PIXEL + 1] = True, needs_level_of_detail(texture), is_mipmapped(texture)
     if is_box:
@@ -235,8 +241,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     switches[CLAMPED], switches[IS_DEPTH] = image.format.largest > 0, is_depth
     switches[PACKED_LEVELS] = last > 0
     switches[LEVEL_OFFSETS : LEVEL_OFFSETS + LEVELS] = level_offsets(image, last, len(texture.faces))
-    border = np.array(sampler.border_color, np.float32)
-    numbers[BORDER : BORDER + 4] = border.clip(0, 1) if image.format.largest else border
+    numbers[BORDER : BORDER + 4] = border_of(image.format, sampler, np.dtype(np.float32))
     numbers[CONSTANT : CONSTANT + 4] = np.array(setting.env_color, np.float32).clip(0, 1)
     numbers[STEP] = unit_of(image.format, np.dtype(np.float32))
     switches[LOD_MODE], numbers[LEAST : BIAS + 1] = level_mode(sampler, needs_blocks(texture))
@@ -244,10 +249,10 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
 
 
 def _holds_texels(format: Format) -> bool:
-    """Return whether the texels of a format are stored in 32 bits, or are kept so beside the image."""
+    """Return whether the texels of a format are stored in 32 bits or as floats, or are kept so beside the image."""
     if format.kind == "depth":
         return format.dtype == np.float32 or format.largest == LARGEST_UINT
-    return format.dtype == np.uint8
+    return format.dtype in (np.uint8, np.float32)
 
 
 def level_mode(sampler: Sampler, needs_levels: bool) -> tuple[int, tuple[float, float, float]]:

@@ -33,7 +33,7 @@ _made: WeakKeyDictionary[Image, tuple[list[object], np.ndarray]] = WeakKeyDictio
 def texels_of(texture: Texture) -> np.ndarray:
     """Return all texels (n,) int32 of a texture: its only image with the padding, or all images without it.
 
-    They follow each other level by level, and each level of a cube map face by face.
+    They follow each other level by level, and each level of a cube map face by face. A texel of floats is four numbers.
     """
     base, sampler = texture.base(), texture.sampler
     assert base is not None
@@ -56,7 +56,7 @@ def texels_of(texture: Texture) -> np.ndarray:
 
 
 def _in_32_bits(cells: np.ndarray) -> np.ndarray:
-    """Return cells (n,) int32: four bytes, or the bits of a depth in float32; of 32-bit depths the upper 23 bits."""
+    """Return cells (n,) int32: four bytes, or the bits of numbers in float32; of 32-bit depths the upper 23 bits."""
     if cells.dtype != np.float64:
         return cells.reshape(-1).view(np.int32)
     upper = np.empty(cells.size, np.float32)

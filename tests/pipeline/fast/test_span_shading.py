@@ -102,6 +102,38 @@ def test_linear_filters_in_float_have_borders_and_compare_depths(depth_share, mo
         assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0)
 
 
+@pytest.mark.parametrize("filters", ["one level", "nearest level", "mixed levels", "any"])
+def test_textures_of_floats_are_sampled_in_blocks(filters, monkeypatch):
+    choices = {
+        "one level": (gl.GL_NEAREST, gl.GL_LINEAR),
+        "nearest level": (gl.GL_NEAREST_MIPMAP_NEAREST, gl.GL_LINEAR_MIPMAP_NEAREST),
+        "mixed levels": (gl.GL_NEAREST_MIPMAP_LINEAR, gl.GL_LINEAR_MIPMAP_LINEAR),
+    }
+    values = {"TARGETS": (gl.GL_TEXTURE_2D,), "FORMATS": fixed_function_pictures.FLOAT_FORMATS, "DEPTH_SHARE": 0}
+    values |= {"TEXELS": (-2.0, 3.0), "MIN_FILTERS": choices.get(filters, fixed_function_pictures.MIN_FILTERS)}
+    for name, value in values.items():
+        monkeypatch.setattr(fixed_function_pictures, name, value)
+    for seed in range(30):
+        ways = {"ordered": seed % 3 == 0, "tested": seed % 4 == 1, "special": seed % 5 == 2}
+        shadings = assert_same(seed, units=1 + seed % 2, size=(40, 30), **ways)
+        assert shadings <= {"fixed-function kernel", ""}
+
+
+@pytest.mark.parametrize("depth_share", [0, 0.5])
+def test_rectangles_are_sampled_in_blocks(depth_share, monkeypatch):
+    formats = (*fixed_function_pictures.FORMATS, *fixed_function_pictures.FLOAT_FORMATS)
+    values = {"TARGETS": (gl.GL_TEXTURE_RECTANGLE,), "FORMATS": formats, "DEPTH_SHARE": depth_share}
+    values |= {"MIN_FILTERS": (gl.GL_NEAREST, gl.GL_LINEAR), "COORDINATES": 30.0}
+    for name, value in values.items():
+        monkeypatch.setattr(fixed_function_pictures, name, value)
+    edges = (gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP, gl.GL_CLAMP_TO_BORDER)
+    for seed in range(45):
+        first = edges[seed % 3]
+        monkeypatch.setattr(fixed_function_pictures, "WRAPS", (first, first, gl.GL_CLAMP))
+        shadings = assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 4 == 0)
+        assert shadings <= {"fixed-function kernel", ""}
+
+
 @pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
 def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
