@@ -1,7 +1,8 @@
 """Textures filtered in float for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
-The nearest depth is compared in a few loops (`compare_nearest_depths`), and linear filters on one level take a few, too
-(`span_linear`). Everything else goes texel by texel, with the functions of `softshadow.programs.wrapping`.
+The nearest depth is compared in a few loops (`compare_nearest_depths`). Filters that are the same for all fragments of
+the block take a few loops, too (`read_nearest`, `span_linear`). Everything else goes texel by texel, with the functions
+of `softshadow.programs.wrapping`.
 """
 
 import numpy as np
@@ -15,7 +16,9 @@ from softshadow.pipeline.fast.fragment_block import (
     LEVEL,
     LINEAR,
     NEXT,
+    OFFSET,
     PITCH,
+    ROW,
     T_AXIS,
     TEXEL,
     TEXEL_ALPHA,
@@ -27,15 +30,15 @@ from softshadow.pipeline.fast.fragment_block import (
     T,
     W,
 )
+from softshadow.pipeline.fast.span_bytes import BYTE
 from softshadow.pipeline.fast.span_linear import (
     CODES,
-    are_linear,
     begin_upper_level_in_float,
     code_of,
     filter_linearly,
     mix_levels,
 )
-from softshadow.pipeline.fast.span_places import ONE_TEXEL, nearest_places, write_places
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, nearest_places, write_places
 from softshadow.pipeline.fast.span_state import (
     BORDER,
     CLAMPED,
@@ -53,6 +56,7 @@ from softshadow.pipeline.fast.span_state import (
 )
 from softshadow.programs.wrapping import linear_texels, linear_texels_at, nearest_texel, nearest_texel_at
 
+FOUR_NUMBERS = np.uint64(4)  # of a texel of floats
 NO_BORDER = np.int32(-1)  # as a place: outside the image
 
 
@@ -84,10 +88,13 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
 @kernel
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels, filtered in float, with borders and comparisons of depths."""
-    if are_linear(count, whole):
-        filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+    most, least = NOTHING, ONE_TEXEL
+    for n in range(np.uint64(count)):
+        most, least = max(most, whole[LINEAR + n]), min(least, whole[LINEAR + n])
+    if most == least and (most != NOTHING or not switches[unit + IS_DEPTH]):
+        filter_alike(most != NOTHING, switches, numbers, unit, number, count, texels, room, whole)
         if begin_upper_level_in_float(count, room, whole):
-            filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+            filter_alike(most != NOTHING, switches, numbers, unit, number, count, texels, room, whole)
             mix_levels(count, room)
         return
     for m in range(count):
@@ -102,6 +109,44 @@ def sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
             red, green = weight * (a - red) + red, weight * (b - green) + green
             blue, alpha = weight * (c - blue) + blue, weight * (d - alpha) + alpha
         room[TEXEL + n], room[TEXEL_GREEN + n], room[TEXEL_BLUE + n], room[TEXEL_ALPHA + n] = red, green, blue, alpha
+
+
+@kernel
+def filter_alike(is_linear, switches, numbers, unit, number, count, texels, room, whole):
+    """Write the texels of one level each, by linear filters, or the nearest colours."""
+    if is_linear:
+        filter_linearly(switches, numbers, unit, number, count, texels, room, whole)
+    else:
+        read_nearest(switches, numbers, unit, number, count, texels, room, whole)
+
+
+@kernel
+def read_nearest(switches, numbers, unit, number, count, texels, room, whole):
+    """Write the nearest colours of one level each, as `filtering.gather_texels`."""
+    write_places(switches, unit, count, whole)
+    nearest_places(S, np.uint64(0), switches[unit + WRAP_S], FIRST, count, room, whole)
+    nearest_places(T, T_AXIS, switches[unit + WRAP_T], FIRST, count, room, whole)
+    is_wide = switches[unit + IS_WIDE] != 0
+    size = FOUR_NUMBERS if is_wide else NEXT
+    largest = np.uint32(np.uint64(len(texels)) // size - NEXT)
+    for n in range(np.uint64(count)):
+        i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
+        inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
+        place = np.int32(np.int32(whole[OFFSET + n] + np.int32(j * whole[PITCH + n])) + i)
+        whole[FILTERED + n] = np.int32(min(np.uint32(place), largest))
+        whole[FIRST + n] = ONE_TEXEL if inside else NOTHING
+    values, step = texels.view(np.float32), numbers[number + STEP]
+    for c in range(4):
+        row, border, channel = TEXEL + np.uint64(c) * ROW, numbers[number + BORDER + c], np.uint64(c)
+        if is_wide:
+            for n in range(np.uint64(count)):
+                value = values[np.uint64(whole[FILTERED + n]) * size + channel]
+                room[row + n] = value if whole[FIRST + n] else border
+        else:
+            shift = np.int32(8 * c)
+            for n in range(np.uint64(count)):
+                texel = np.int32(texels[np.uint64(whole[FILTERED + n])] >> shift)
+                room[row + n] = np.float32(texel & BYTE) * step if whole[FIRST + n] else border
 
 
 @kernel

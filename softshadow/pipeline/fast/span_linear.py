@@ -17,7 +17,6 @@ from softshadow.pipeline.fast.fragment_block import (
     FIRST,
     LENGTH,
     LEVEL,
-    LINEAR,
     LOWER_TEXEL,
     ROW,
     SECOND,
@@ -43,15 +42,6 @@ LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), 
 OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
 X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
 FOUR = np.uint32(2)  # as a shift
-
-
-@kernel
-def are_linear(count, whole):
-    """Return whether the filters of all fragments are linear."""
-    all_linear = ONE_TEXEL
-    for n in range(np.uint64(count)):
-        all_linear = min(all_linear, np.int32(whole[LINEAR + n] != NOTHING))
-    return all_linear != NOTHING
 
 
 @kernel
