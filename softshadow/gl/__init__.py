@@ -103,7 +103,7 @@ def create_context(
     polygon_offset_slope: str = "max",
     polygon_offset_unit: str = "mesa",
     raise_errors: bool = True,
-    history_mb: float | None = 256,
+    history_mb: float | None = 64,
 ) -> Context:
     """Create a context in GL's initial state and make it this thread's current one.
 

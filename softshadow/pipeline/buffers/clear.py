@@ -58,7 +58,9 @@ def clear(command: Clear, storage: Storage) -> None:
             cells = target.stencil.cells[where]
             cells[:] = (cells & (largest ^ mask)) | (state.stencil.clear & mask)
     if command.mask & gl.GL_ACCUM_BUFFER_BIT and target.name == DEFAULT:
-        accumulation.buffer_of(target)[where] = accumulation.clear_value(state.color.clear_accum)
+        # the four sums of a pixel as one number: sum by sum takes ten times as long
+        sums, value = accumulation.buffer_of(target), accumulation.clear_value(state.color.clear_accum)
+        sums.view(np.int64)[..., 0][where] = value.view(np.int64)[0]
 
 
 def write_region(image: Image, region: Region, value: float) -> None:
