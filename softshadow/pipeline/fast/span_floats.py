@@ -88,13 +88,11 @@ def compare_nearest_depths(switches, numbers, unit, number, count, texels, room,
 @kernel
 def sample_in_float(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels, filtered in float, with borders and comparisons of depths."""
-    most, least = NOTHING, ONE_TEXEL
-    for n in range(np.uint64(count)):
-        most, least = max(most, whole[LINEAR + n]), min(least, whole[LINEAR + n])
-    if most == least and (most != NOTHING or not switches[unit + IS_DEPTH]):
-        filter_alike(most != NOTHING, switches, numbers, unit, number, count, texels, room, whole)
+    all_linear, none_linear = have_all(count, LINEAR, ONE_TEXEL, whole), have_all(count, LINEAR, NOTHING, whole)
+    if all_linear or (none_linear and not switches[unit + IS_DEPTH]):
+        filter_alike(all_linear, switches, numbers, unit, number, count, texels, room, whole)
         if begin_upper_level_in_float(count, room, whole):
-            filter_alike(most != NOTHING, switches, numbers, unit, number, count, texels, room, whole)
+            filter_alike(all_linear, switches, numbers, unit, number, count, texels, room, whole)
             mix_levels(count, room)
         return
     for m in range(count):
@@ -109,6 +107,15 @@ def sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
             red, green = weight * (a - red) + red, weight * (b - green) + green
             blue, alpha = weight * (c - blue) + blue, weight * (d - alpha) + alpha
         room[TEXEL + n], room[TEXEL_GREEN + n], room[TEXEL_BLUE + n], room[TEXEL_ALPHA + n] = red, green, blue, alpha
+
+
+@kernel
+def have_all(count, row, value, whole):
+    """Return whether all fragments have a value in a row."""
+    differs = NOTHING
+    for n in range(np.uint64(count)):
+        differs |= whole[row + n] ^ value
+    return differs == NOTHING
 
 
 @kernel
@@ -127,8 +134,7 @@ def read_nearest(switches, numbers, unit, number, count, texels, room, whole):
     nearest_places(S, np.uint64(0), switches[unit + WRAP_S], FIRST, count, room, whole)
     nearest_places(T, T_AXIS, switches[unit + WRAP_T], FIRST, count, room, whole)
     is_wide = switches[unit + IS_WIDE] != 0
-    size = FOUR_NUMBERS if is_wide else NEXT
-    largest = np.uint32(np.uint64(len(texels)) // size - NEXT)
+    largest = np.uint32((len(texels) >> 2 if is_wide else len(texels)) - 1)
     for n in range(np.uint64(count)):
         i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
         inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
@@ -140,7 +146,7 @@ def read_nearest(switches, numbers, unit, number, count, texels, room, whole):
         row, border, channel = TEXEL + np.uint64(c) * ROW, numbers[number + BORDER + c], np.uint64(c)
         if is_wide:
             for n in range(np.uint64(count)):
-                value = values[np.uint64(whole[FILTERED + n]) * size + channel]
+                value = values[np.uint64(whole[FILTERED + n]) * FOUR_NUMBERS + channel]
                 room[row + n] = value if whole[FIRST + n] else border
         else:
             shift = np.int32(8 * c)
