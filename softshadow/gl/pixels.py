@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ctypes import c_int
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,7 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     operation = "glReadPixels"
     if (context := outside_begin(operation)) is None:
         return None
+    width, height = c_int(int(width)).value, c_int(int(height)).value  # larger numbers are negative in C
     if width < 0 or height < 0:
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
@@ -89,12 +91,12 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     if buffers is None:
         missing = kind_of(format).replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
-    where = image_destination(context, array, int(width), int(height), 0, format, type, operation)
+    where = image_destination(context, array, width, height, 0, format, type, operation)
     if where is None:
         return None
     answer, view = where
     context.finish()
-    rows, columns, left, bottom = clipped(source, int(x), int(y), int(width), int(height))
+    rows, columns, left, bottom = clipped(source, int(x), int(y), width, height)
     cells = [bottom_up(source, buffer)[rows, columns] for buffer in buffers]
     height, width = cells[0].shape[:2]
     _pack(view[bottom : bottom + height, left : left + width], cells, buffers, format, type, context.pixel_transfer)

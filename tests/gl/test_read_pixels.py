@@ -71,3 +71,9 @@ def test_reading_is_no_command(context):
     before = len(context.frame.commands)
     read(0, 0, 1, 1)
     assert len(context.frame.commands) == before
+
+
+@pytest.mark.parametrize("size", [(2, 1 << 31), ((1 << 31) + 1, 2), (-1, 2)])
+def test_sizes_beyond_32_bits_are_negative_as_in_c(size):
+    with pytest.raises(gl.GLError, match="GL_INVALID_VALUE"):
+        gl.glReadPixels(0, 0, *size, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE)
