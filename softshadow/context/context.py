@@ -81,7 +81,8 @@ class Context(CurrentValues, Precision):
         # no list is compiled, no primitive is open, nothing is collected: a call may change the state at once.
         # Not always True then, but always False otherwise.
         self.ready = False
-        self.before: Context | None = None  # the context that a with statement restores
+        self.before: Context | None = None  # the context that the first with statement restores
+        self._restored: list[Context | None] = []  # by the with statements that this context is in
         self.error = gl.GL_NO_ERROR
         viewport = evolve(State().viewport, width=width, height=height)
         scissor = evolve(State().scissor, width=width, height=height)
@@ -142,11 +143,23 @@ class Context(CurrentValues, Precision):
         self.query_targets: dict[int, int] = {}  # name: target of the queries that have been begun
 
     def __enter__(self) -> Context:
-        make_current(self)
+        before = make_current(self)
+        is_new = before is self and not self._restored
+        self._restored.append(self.before if is_new else before)
+        self.before = None
         return self
 
     def __exit__(self, *_: object) -> None:
-        make_current(self.before)
+        make_current(self._restored.pop())
+
+    def set_before(self, before: Context | None) -> None:
+        """Let the context that was current before be the one that a with statement restores.
+
+        That one forgets its own: else each context would keep all earlier ones, with their buffers and recordings.
+        """
+        self.before = before
+        if before is not None:
+            before.before = None
 
     @property
     def storage(self) -> Storage:

@@ -140,7 +140,7 @@ def create_context(
         raise ValueError(f"history_mb={history_mb!r}: expected more than 0, or None")
     history_bytes = None if history_mb is None or history_mb == float("inf") else int(history_mb * (1 << 20))
     context = Context(width, height, depth_format, stencil_bits, precision, *offset, raise_errors, history_bytes)
-    context.before = make_current(context)
+    context.set_before(make_current(context))
     return context
 
 
