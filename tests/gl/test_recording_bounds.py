@@ -123,7 +123,7 @@ def test_the_default_keeps_all_of_an_ordinary_program():
         for _ in range(10):
             gl.glClear(gl.GL_COLOR_BUFFER_BIT)
         assert context.frame.start is None
-        assert context.frame.history_bytes == 256 << 20
+        assert context.frame.history_bytes == 64 << 20
 
 
 def cut_context() -> gl.Context:

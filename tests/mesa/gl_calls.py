@@ -1,6 +1,7 @@
 """GL programs as data: a list of calls that can be replayed on any GL namespace, printed as Python code, and shrunk."""
 
 import re
+import time
 from collections.abc import Callable
 from functools import reduce
 from operator import or_
@@ -79,14 +80,19 @@ def _spelled(argument: Any) -> str:
     return repr(argument)
 
 
-def shrink(calls: list[Call], fails: Callable[[list[Call]], bool], attempts: int = 500) -> list[Call]:
-    """Return a shorter list of calls that still fails: ever smaller runs are left out as long as any can go."""
-    length = max(1, len(calls) // 2)
+def shrink(
+    calls: list[Call], fails: Callable[[list[Call]], bool], attempts: int = 500, seconds: float = 120
+) -> list[Call]:
+    """Return a shorter list of calls that still fails: ever smaller runs are left out as long as any can go.
+
+    A program may take Mesa half a minute; then there is time for few attempts.
+    """
+    length, end = max(1, len(calls) // 2), time.monotonic() + seconds
     while True:
         position, shortened = 0, False
         while position < len(calls):
             candidate = calls[:position] + calls[position + length :]
-            if attempts == 0:
+            if attempts == 0 or time.monotonic() > end:
                 return calls
             attempts -= 1
             if fails(candidate):

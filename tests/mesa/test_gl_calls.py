@@ -59,3 +59,4 @@ def test_shrinking_leaves_the_calls_that_matter():
 def test_shrinking_stops_after_its_attempts():
     noise = [("glEnable", (number,)) for number in range(40)]
     assert shrink(noise, lambda calls: False, attempts=3) == noise
+    assert shrink(noise, lambda calls: True, seconds=0) == noise
