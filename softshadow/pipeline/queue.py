@@ -100,7 +100,7 @@ class DrawQueue:
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
         self._textures: set[int] = set()  # names of those that they may read
         self._framebuffers: set[int] = set()  # that they, and commands among them, write to or read
-        self._is_kept = False  # whether a command among them has read a picture, of which a clear can begin another one
+        self._is_copied = False  # whether the picture so far was copied: then a clear begins another pass
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
 
     def add(self, command: Draw) -> bool:
@@ -210,7 +210,7 @@ class DrawQueue:
         """
         state = command.state
         is_whole = state.draw_framebuffer == DEFAULT and not state.scissor.enabled
-        if is_whole and command.mask & gl.GL_COLOR_BUFFER_BIT and not self._is_kept:
+        if is_whole and command.mask & gl.GL_COLOR_BUFFER_BIT and not self._is_copied:
             self.carry_out()
         if not self._segments:
             return False
@@ -230,7 +230,7 @@ class DrawQueue:
                 self._textures.add(texture)
             case BlitFramebuffer(read=read, draw=draw):
                 self._framebuffers.update((read, draw))
-        self._is_kept = not (isinstance(command, Accumulate) and command.operation == gl.GL_RETURN)
+        self._is_copied = not (isinstance(command, Accumulate) and command.operation == gl.GL_RETURN)
         self._append(command)
         return True
 
@@ -280,7 +280,7 @@ class DrawQueue:
             return
         self._kind, self._batches, self._queries = None, {}, set()
         self._segments, self._segment = [], None
-        self._textures, self._framebuffers, self._is_kept = set(), set(), False
+        self._textures, self._framebuffers, self._is_copied = set(), set(), False
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
         if not BATCH_KERNELS.are_compiled():
             announce_compiling()

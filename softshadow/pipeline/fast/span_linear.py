@@ -41,7 +41,7 @@ from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL
 LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
 OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
 X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
-FOUR = np.uint32(2)  # as a shift
+TIMES_FOUR = np.uint32(2)  # as a shift
 
 
 @kernel
@@ -187,10 +187,10 @@ def mix_floats(numbers, number, count, values, room, whole):
     """Write the four channels of a colour texture of floats, four `values` for each texel."""
     largest = np.uint32((len(values) >> 2) - 1)
     for n in range(np.uint64(count)):
-        whole[CORNER_00 + n] = np.int32(min(np.uint32(whole[CORNER_00 + n]), largest) << FOUR)
-        whole[CORNER_10 + n] = np.int32(min(np.uint32(whole[CORNER_10 + n]), largest) << FOUR)
-        whole[CORNER_01 + n] = np.int32(min(np.uint32(whole[CORNER_01 + n]), largest) << FOUR)
-        whole[CORNER_11 + n] = np.int32(min(np.uint32(whole[CORNER_11 + n]), largest) << FOUR)
+        whole[CORNER_00 + n] = np.int32(min(np.uint32(whole[CORNER_00 + n]), largest) << TIMES_FOUR)
+        whole[CORNER_10 + n] = np.int32(min(np.uint32(whole[CORNER_10 + n]), largest) << TIMES_FOUR)
+        whole[CORNER_01 + n] = np.int32(min(np.uint32(whole[CORNER_01 + n]), largest) << TIMES_FOUR)
+        whole[CORNER_11 + n] = np.int32(min(np.uint32(whole[CORNER_11 + n]), largest) << TIMES_FOUR)
     for c in range(4):
         channel, border = np.uint64(c), numbers[number + BORDER + c]
         for n in range(np.uint64(count)):
