@@ -30,6 +30,7 @@ class Recording:
         self._is_open = True
 
     def __enter__(self) -> Recording:
+        self.context.__enter__()
         return self
 
     def __exit__(
