@@ -1,8 +1,8 @@
 """Kinds of draws that can wait: what draws under one state have in common is found once, not for each of them.
 
 A kind depends on the state of its draws, on the textures that they read and on the framebuffer that they write to. It
-is forgotten when one of these changes. Sampler parameters are part of a `Texture`, so a program that goes back and
-forth between two filters finds the kinds of both.
+is forgotten when one of these changes: of images, the size or the format. Sampler parameters are part of a `Texture`,
+so a program that goes back and forth between two filters finds the kinds of both.
 """
 
 from __future__ import annotations

@@ -57,27 +57,33 @@ from softshadow.pipeline.fast.span_state import (
 from softshadow.programs.wrapping import linear_texels, linear_texels_at, nearest_texel, nearest_texel_at
 
 FOUR_NUMBERS = np.uint64(4)  # of a texel of floats
-NO_BORDER = np.int32(-1)  # as a place: outside the image
+OUTSIDE_IMAGE = np.int32(-1)  # as a place
+
+
+@kernel
+def find_nearest(switches, unit, count, room, whole):
+    """Write FILTERED: where the nearest texels are stored, or OUTSIDE_IMAGE."""
+    write_places(switches, unit, count, whole)
+    nearest_places(S, np.uint64(0), switches[unit + WRAP_S], FIRST, count, room, whole)
+    nearest_places(T, T_AXIS, switches[unit + WRAP_T], FIRST, count, room, whole)
+    for n in range(np.uint64(count)):
+        i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
+        inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
+        place = np.int32(np.int32(whole[OFFSET + n] + np.int32(j * whole[PITCH + n])) + i)
+        whole[FILTERED + n] = place if inside else OUTSIDE_IMAGE
 
 
 @kernel
 def compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole):
     """Write 0 or 1 for R compared with the nearest depth, as `filtering.compare_depth`."""
-    write_places(switches, unit, count, whole)
-    wrap_s, wrap_t = switches[unit + WRAP_S], switches[unit + WRAP_T]
-    nearest_places(S, np.uint64(0), wrap_s, FIRST, count, room, whole)
-    nearest_places(T, T_AXIS, wrap_t, FIRST, count, room, whole)
-    for n in range(np.uint64(count)):
-        i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
-        inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
-        whole[FILTERED + n] = np.int32(np.int32(j * whole[PITCH + n]) + i) if inside else NO_BORDER
+    find_nearest(switches, unit, count, room, whole)
     depths, border, step = texels.view(np.float32), numbers[number + BORDER], numbers[number + STEP]
     largest = np.uint32(len(texels) - 1)
     for n in range(np.uint64(count)):
         room[W + n] = depths[np.uint64(min(np.uint32(whole[FILTERED + n]), largest))]
     clamped, wanted = switches[unit + CLAMPED] != 0, np.int32(switches[unit + COMPARISON]) & CODES
     for n in range(np.uint64(count)):
-        depth = room[W + n] * step if whole[FILTERED + n] != NO_BORDER else border
+        depth = room[W + n] * step if whole[FILTERED + n] != OUTSIDE_IMAGE else border
         r = room[R + n]
         if clamped:
             r = r if r > ZERO else ZERO
@@ -130,29 +136,23 @@ def filter_alike(is_linear, switches, numbers, unit, number, count, texels, room
 @kernel
 def read_nearest(switches, numbers, unit, number, count, texels, room, whole):
     """Write the nearest colours of one level each, as `filtering.gather_texels`."""
-    write_places(switches, unit, count, whole)
-    nearest_places(S, np.uint64(0), switches[unit + WRAP_S], FIRST, count, room, whole)
-    nearest_places(T, T_AXIS, switches[unit + WRAP_T], FIRST, count, room, whole)
+    find_nearest(switches, unit, count, room, whole)
     is_wide = switches[unit + IS_WIDE] != 0
     largest = np.uint32((len(texels) >> 2 if is_wide else len(texels)) - 1)
     for n in range(np.uint64(count)):
-        i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
-        inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))
-        place = np.int32(np.int32(whole[OFFSET + n] + np.int32(j * whole[PITCH + n])) + i)
-        whole[FILTERED + n] = np.int32(min(np.uint32(place), largest))
-        whole[FIRST + n] = ONE_TEXEL if inside else NOTHING
+        whole[FIRST + n] = np.int32(min(np.uint32(whole[FILTERED + n]), largest))
     values, step = texels.view(np.float32), numbers[number + STEP]
     for c in range(4):
         row, border, channel = TEXEL + np.uint64(c) * ROW, numbers[number + BORDER + c], np.uint64(c)
         if is_wide:
             for n in range(np.uint64(count)):
-                value = values[np.uint64(whole[FILTERED + n]) * FOUR_NUMBERS + channel]
-                room[row + n] = value if whole[FIRST + n] else border
+                value = values[np.uint64(whole[FIRST + n]) * FOUR_NUMBERS + channel]
+                room[row + n] = value if whole[FILTERED + n] != OUTSIDE_IMAGE else border
         else:
             shift = np.int32(8 * c)
             for n in range(np.uint64(count)):
-                texel = np.int32(texels[np.uint64(whole[FILTERED + n])] >> shift)
-                room[row + n] = np.float32(texel & BYTE) * step if whole[FIRST + n] else border
+                texel = np.int32(texels[np.uint64(whole[FIRST + n])] >> shift)
+                room[row + n] = np.float32(texel & BYTE) * step if whole[FILTERED + n] != OUTSIDE_IMAGE else border
 
 
 @kernel
