@@ -24,6 +24,7 @@ FLOAT_FORMATS = (
 )  # fmt: skip
 TEXELS = 0.0, 1.0  # the least and the largest one
 DEPTH_SHARE = 0.3  # of the textures
+ANISOTROPY = 1.0  # GL_TEXTURE_MAX_ANISOTROPY_EXT
 COORDINATES = 1.0  # about the largest ones
 FUNCS = tuple(range(gl.GL_NEVER, gl.GL_ALWAYS + 1))
 TARGETS = (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_2D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP)
@@ -62,6 +63,7 @@ def random_texture(rng, unit):
     min_filter = pick(rng, MIN_FILTERS)
     parameter("MIN_FILTER", min_filter)
     parameter("MAG_FILTER", pick(rng, (gl.GL_NEAREST, gl.GL_LINEAR)))
+    gl.glTexParameterf(target, gl.GL_TEXTURE_MAX_ANISOTROPY_EXT, ANISOTROPY)
     if target == gl.GL_TEXTURE_CUBE_MAP and rng.random() < 0.2:
         gl.glEnable(gl.GL_TEXTURE_CUBE_MAP_SEAMLESS)
     edges = WRAPS[:2] if rng.random() < 0.5 else WRAPS

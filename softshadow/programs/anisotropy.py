@@ -96,15 +96,19 @@ def average_level(
 
 
 @kernel
-def ellipse_of(footprint):
-    """Return (A, B, C, F, half width, half height) of the ellipse A u u + B u v + C v v = F around the origin."""
-    ux, vx, uy, vy = footprint[0, 0], footprint[0, 1], footprint[1, 0], footprint[1, 1]
+def ellipse_of(ux, vx, uy, vy):
+    """Return (A, B, C, half width, half height) of the ellipse A u u + B u v + C v v = LAST_WEIGHT around the origin.
+
+    (ux, vx) and (uy, vy) are the steps to the next column and row, in texels.
+    """
     a = (vx * vx + vy * vy) + ONE
     b = (ux * vx + uy * vy) * -TWO
     c = (ux * ux + uy * uy) + ONE
     f = a * c - (b * b) / FOUR
     d = (ZERO - b * b) + (a * c) * FOUR
-    return a, b, c, f, (TWO / d) * np.sqrt((d * c) * f), (TWO / d) * np.sqrt((a * d) * f)
+    half_width, half_height = (TWO / d) * np.sqrt((d * c) * f), (TWO / d) * np.sqrt((a * d) * f)
+    scale = SCALE / f
+    return a * scale, b * scale, c * scale, half_width, half_height
 
 
 @kernel
@@ -112,6 +116,17 @@ def weight_at(weights, q):
     """Return the weight at a scaled squared distance, 0 outside the ellipse."""
     index = to_integer(q)
     return weights[max(index, 0)] if index <= LAST_WEIGHT else ZERO
+
+
+@kernel
+def box_of(u, v, half_width, half_height):
+    """Return (first column, first row, columns - 1, rows - 1) of the box of texels around an ellipse at (u, v)."""
+    u0, u1 = to_integer(np.floor(u - half_width)), to_integer(np.ceil(u + half_width))
+    v0, v1 = to_integer(np.floor(v - half_height)), to_integer(np.ceil(v + half_height))
+    columns, rows = min(u1 - u0, MOST_TEXELS), min(v1 - v0, MOST_TEXELS)
+    if (columns + 1) * (rows + 1) > MOST_TEXELS:
+        columns, rows = min(columns, WIDEST), min(rows, WIDEST)
+    return u0, v0, columns, rows
 
 
 @kernel
@@ -127,15 +142,10 @@ def average_ellipses(
     a, b, c, half_width, half_height = ZERO, ZERO, ZERO, ZERO, ZERO
     for n in range(coordinates.shape[1]):
         if n & 3 == 0:  # the next block
-            a, b, c, f, half_width, half_height = ellipse_of(footprints[n >> 2])
-            scale = SCALE / f
-            a, b, c = a * scale, b * scale, c * scale
+            step = footprints[n >> 2]
+            a, b, c, half_width, half_height = ellipse_of(step[0, 0], step[0, 1], step[1, 0], step[1, 1])
         u, v = coordinates[0, n] * scaled[0] - HALF, coordinates[1, n] * scaled[1] - HALF
-        u0, u1 = to_integer(np.floor(u - half_width)), to_integer(np.ceil(u + half_width))
-        v0, v1 = to_integer(np.floor(v - half_height)), to_integer(np.ceil(v + half_height))
-        columns, rows = min(u1 - u0, MOST_TEXELS), min(v1 - v0, MOST_TEXELS)
-        if (columns + 1) * (rows + 1) > MOST_TEXELS:
-            columns, rows = min(columns, WIDEST), min(rows, WIDEST)
+        u0, v0, columns, rows = box_of(u, v, half_width, half_height)
         left = np.float32(u0) - u
         first_step, first_q = (TWO * left + ONE) * a, (left * left) * a
         total, red, green, blue, alpha = ZERO, ZERO, ZERO, ZERO, ZERO

@@ -3,7 +3,7 @@
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
 (cube maps, 1-D and 3-D textures of floats, cube maps that are seamless or of depths, borders of 1-D and 3-D textures,
-anisotropic filters, more than four units ...) is shaded by the textbook.
+anisotropic filters with borders, more than four units ...) is shaded by the textbook.
 """
 
 from __future__ import annotations
@@ -25,7 +25,13 @@ from softshadow.programs.fixed_function import Unit, has_secondary, repeats_prim
 from softshadow.programs.fog import linear_terms, scaled_density
 from softshadow.programs.level_of_detail import FILTERS, LARGEST_LEVEL, bias_of
 from softshadow.programs.program import needs_blocks
-from softshadow.programs.sampling import base_format, filters_cube_in_float, is_mipmapped, needs_level_of_detail
+from softshadow.programs.sampling import (
+    base_format,
+    filters_cube_in_float,
+    is_mipmapped,
+    n_levels_of_ellipses,
+    needs_level_of_detail,
+)
 from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
 from softshadow.state import State
 from softshadow.texture import Sampler
@@ -48,8 +54,8 @@ IS_WIDE = 68  # whether a texel is four floats, not four bytes or a depth
 # in `numbers`
 FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
-# how a unit is sampled: bytes as integers; one by one in float; the nearest depth compared
-IN_BYTES, IN_FLOAT, NEAREST_DEPTH = range(3)
+# how a unit is sampled: bytes as integers; one by one in float; the nearest depth compared; with an anisotropic filter
+IN_BYTES, IN_FLOAT, NEAREST_DEPTH, IN_ELLIPSES = range(4)
 NO_LEVELS, BY_EXPONENT, CONSTANT_LEVEL, BY_LOGARITHM = range(4)
 # what a texture environment does to a channel
 KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND, COMBINE = range(7)
@@ -195,7 +201,6 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
         not (is_flat or is_box or is_cube or is_line)
         or (is_depth and not is_flat)
         or filters_cube_in_float(texture)
-        or texture.is_anisotropic
         or setting.env_mode not in (*MODES, gl.GL_COMBINE)
         or not _holds_texels(image.format)
     ):
@@ -210,7 +215,11 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     linear = gl.GL_LINEAR in (within, sampler.mag_filter)
     compares = is_depth and sampler.compare_mode != gl.GL_NONE
     mixes_bytes = in_8_bits(image, wraps)
-    if compares and not linear and not needs_blocks(texture):
+    if texture.is_anisotropic:
+        if not _covers_ellipses(texture, wraps):
+            return False
+        switches[PATH] = IN_ELLIPSES
+    elif compares and not linear and not needs_blocks(texture):
         switches[PATH] = NEAREST_DEPTH
     elif (
         is_depth
@@ -246,6 +255,16 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
     numbers[STEP] = unit_of(image.format, np.dtype(np.float32))
     switches[LOD_MODE], numbers[LEAST : BIAS + 1] = level_mode(sampler, needs_blocks(texture))
     return True
+
+
+def _covers_ellipses(texture: Texture, wraps: tuple[int, ...]) -> bool:
+    """Return whether `span_ellipses` covers an anisotropic filter: no border, no depths, no few bits, 2-D, all levels."""
+    image, sampler = texture.base(), texture.sampler
+    assert image is not None
+    has_levels = FILTERS[sampler.min_filter][1] != gl.GL_NONE or n_levels_of_ellipses(texture) == 1
+    is_flat = texture.target in (gl.GL_TEXTURE_2D, gl.GL_TEXTURE_RECTANGLE)
+    in_image = is_flat and sampler.base_level == 0 and gl.GL_CLAMP_TO_BORDER not in wraps
+    return in_image and has_levels and image.format.kind != "depth" and not image.format.has_few_bits
 
 
 def _holds_texels(format: Format) -> bool:

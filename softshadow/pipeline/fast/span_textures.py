@@ -11,6 +11,7 @@ from softshadow.pipeline.constants import ONE, ZERO
 from softshadow.pipeline.fast.fragment_block import ROW, TEXEL, R, S, T
 from softshadow.pipeline.fast.span_bytes import filter_block, unpack_texels
 from softshadow.pipeline.fast.span_cubes import project_onto_faces_of_block
+from softshadow.pipeline.fast.span_ellipses import average_ellipses_of_block
 from softshadow.pipeline.fast.span_floats import compare_nearest_depths, sample_in_float
 from softshadow.pipeline.fast.span_levels import select_levels_of_block, write_squared_steps
 from softshadow.pipeline.fast.span_state import (
@@ -18,6 +19,7 @@ from softshadow.pipeline.fast.span_state import (
     CHANNELS,
     HEIGHT,
     IN_BYTES,
+    IN_ELLIPSES,
     IN_FLOAT,
     IS_CUBE,
     IS_LINE,
@@ -48,6 +50,11 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
         unpack_texels(count, room, whole)
     elif path == NEAREST_DEPTH:
         compare_nearest_depths(switches, numbers, unit, number, count, texels, room, whole)
+    elif path == IN_ELLIPSES:
+        is_flat = flat[switches[unit + S_COLUMN]]
+        average_ellipses_of_block(
+            planes, spans, n_spans, is_flat, switches, numbers, unit, number, texels, room, whole
+        )  # fmt: skip
     else:
         sample_in_float(switches, numbers, unit, number, count, texels, room, whole)
     if switches[unit + IS_SPREAD]:
@@ -57,7 +64,8 @@ def sample_block(planes, spans, n_spans, count, flat, switches, numbers, unit, n
 @kernel
 def place_block(planes, spans, n_spans, count, flat, switches, numbers, unit, number, room, whole):
     """Write where a unit's texture is looked up, and the level of each fragment."""
-    column, path, has_levels = switches[unit + S_COLUMN], switches[unit + PATH], switches[unit + LOD_MODE] != NO_LEVELS
+    column, path = switches[unit + S_COLUMN], switches[unit + PATH]
+    has_levels = switches[unit + LOD_MODE] != NO_LEVELS and path != IN_ELLIPSES
     in_space = switches[unit + SLICES] | switches[unit + IS_CUBE]
     if has_levels and in_space:
         write_squared_steps_in_space(planes, spans, n_spans, flat[column], switches, unit, room)
