@@ -26,7 +26,7 @@ from softshadow.tokens import GL_TEXTURE_RECTANGLE
 LAST_WEIGHT = 1023
 TWO, FOUR, SCALE = np.float32(2.0), np.float32(4.0), np.float32(LAST_WEIGHT)
 # texels of an ellipse's box: no loop may be endless, whatever the coordinates are
-MOST_TEXELS, WIDEST = 1 << 30, 1 << 14  # in all; on both axes, where there would be more
+MOST_TEXELS, WIDEST = 1 << 33, 1 << 16  # in all; on both axes, where there would be more
 FEW_COLUMNS = 256  # of a box, which are looked up once for all its rows
 
 

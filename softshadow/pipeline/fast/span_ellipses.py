@@ -1,4 +1,4 @@
-"""Anisotropic filters for a block of fragments; equals `shade.shading.shade`, see fast/test_span_ellipses.py.
+"""Anisotropic filters for a block of fragments; equals `shade.shading.shade`, see fast/test_span_shading.py.
 
 All bytes in the box around an ellipse count, those outside the ellipse with weight 0: so their loop has no branch.
 The steps are those of `softshadow.programs.anisotropy`.
@@ -18,11 +18,11 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_PLACE,
     SPAN_ROW,
     SPAN_START,
+    T_AXIS,
     TEXEL,
     TEXEL_ALPHA,
     TEXEL_BLUE,
     TEXEL_GREEN,
-    T_AXIS,
     S,
     T,
     whole_portions,
@@ -43,7 +43,6 @@ from softshadow.pipeline.fast.span_state import (
     PACKED_LEVELS,
     ROW_LENGTH,
     S_COLUMN,
-    STEP,
     WIDTH,
     WRAP_S,
     WRAP_T,
@@ -123,22 +122,23 @@ def average_ellipse(level, ellipse, n, switches, numbers, unit, number, texels, 
     left = np.float32(u0) - u
     first_step, first_q, twice = (TWO * left + ONE) * a, (left * left) * a, a * TWO
     wrap_s, wrap_t, is_wide = switches[unit + WRAP_S], switches[unit + WRAP_T], switches[unit + IS_WIDE] != 0
+    sums = (ZERO, ZERO, ZERO, ZERO, ZERO)
     is_near = columns < SIZE and rows < SIZE and abs(u0) < FAR and abs(v0) < FAR
-    is_small = is_near and abs(b) + a + c < STEEP  # no if one of them is not a number
-    if is_small:
+    if is_near and abs(b) + a + c < STEEP:  # no if one of them is not a number
         find_texels(np.uint64(0), u0, columns + 1, width, wrap_s, room, whole)
         find_texels(T_AXIS, v0, rows + 1, height, wrap_t, room, whole)
-    sums = (ZERO, ZERO, ZERO, ZERO, ZERO)
-    for j in range(rows + 1):
-        up = np.float32(v0 + j) - v
-        step, q = up * b + first_step, (c * up + b * left) * up + first_q
-        if is_small:
+        for j in range(rows + 1):
+            up = np.float32(v0 + j) - v
+            step, q = up * b + first_step, (c * up + b * left) * up + first_q
             begin = offset + pitch * np.int64(whole[T_AXIS + FIRST + np.uint64(j)])
             if is_wide:
                 sums = add_floats(columns, begin, q, step, twice, texels.view(np.float32), whole, sums)
             else:
                 sums = add_bytes(columns, begin, q, step, twice, texels, whole, sums)
-        else:
+    else:
+        for j in range(rows + 1):
+            up = np.float32(v0 + j) - v
+            step, q = up * b + first_step, (c * up + b * left) * up + first_q
             begin = offset + pitch * np.int64(texel_on_axis(v0 + j, height, wrap_t))
             sums = add_any_row(u0, columns, begin, q, step, twice, width, wrap_s, is_wide, texels, sums)
     total, red, green, blue, alpha = sums

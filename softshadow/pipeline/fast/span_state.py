@@ -34,7 +34,7 @@ from softshadow.programs.sampling import (
 )
 from softshadow.programs.texture_environment import MODES, WITHOUT_ALPHA
 from softshadow.state import State
-from softshadow.texture import Sampler
+from softshadow.texture import Sampler, Texture
 
 UNITS = 4  # texture units at most
 # in `switches`
@@ -258,7 +258,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
 
 
 def _covers_ellipses(texture: Texture, wraps: tuple[int, ...]) -> bool:
-    """Return whether `span_ellipses` covers an anisotropic filter: no border, no depths, no few bits, 2-D, all levels."""
+    """Return whether `span_ellipses` covers an anisotropic filter: of 2-D colours, without borders."""
     image, sampler = texture.base(), texture.sampler
     assert image is not None
     has_levels = FILTERS[sampler.min_filter][1] != gl.GL_NONE or n_levels_of_ellipses(texture) == 1

@@ -12,6 +12,7 @@ from softshadow.pipeline import choose, explain_paths, set_threads, threads, use
 from softshadow.pipeline.fast import fragment_block
 
 OWN_SOURCES = (gl.GL_TEXTURE, gl.GL_CONSTANT, gl.GL_PRIMARY_COLOR, gl.GL_PREVIOUS)
+WITHOUT_BORDER = (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP, gl.GL_MIRRORED_REPEAT)
 
 
 @pytest.fixture(autouse=True)
@@ -150,6 +151,56 @@ def test_depths_of_cube_maps_are_compared_by_the_textbook(monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 1.0)
     for seed in range(12):
         assert assert_same(seed, units=1, size=(40, 30)) <= {"program", ""}
+
+
+@pytest.fixture
+def anisotropic(monkeypatch):
+    """Let random textures be 2-D colours with anisotropic filters and without borders."""
+    values = {"TARGETS": (gl.GL_TEXTURE_2D,), "WRAPS": WITHOUT_BORDER, "ANISOTROPY": 8.0, "DEPTH_SHARE": 0}
+    values |= {"COORDINATES": 0.02}  # else most ellipses have thousands of texels
+    for name, value in values.items():
+        monkeypatch.setattr(fixed_function_pictures, name, value)
+
+
+@pytest.mark.parametrize("coordinates", [0.005, 0.03])
+def test_bytes_in_ellipses_are_averaged(coordinates, anisotropic, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "COORDINATES", coordinates)
+    shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(24)]
+    assert shadings.count({"fixed-function kernel"}) > len(shadings) / 2  # others have levels without a mipmap filter
+
+
+def test_floats_in_ellipses_are_averaged(anisotropic, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "FORMATS", fixed_function_pictures.FLOAT_FORMATS)
+    monkeypatch.setattr(fixed_function_pictures, "TEXELS", (-2.0, 3.0))
+    shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), tested=seed % 4 == 1) for seed in range(30)]
+    assert shadings.count({"fixed-function kernel"}) > len(shadings) / 2
+
+
+def test_texels_of_rectangles_in_ellipses_are_averaged(anisotropic, monkeypatch):
+    values = {
+        "TARGETS": (gl.GL_TEXTURE_RECTANGLE,),
+        "FORMATS": (*fixed_function_pictures.FORMATS, *fixed_function_pictures.FLOAT_FORMATS),
+        "COORDINATES": 0.02,
+    }
+    values |= {"MIN_FILTERS": (gl.GL_NEAREST, gl.GL_LINEAR), "WRAPS": (gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP) * 2}
+    for name, value in values.items():
+        monkeypatch.setattr(fixed_function_pictures, name, value)
+    shadings = [assert_same(seed, units=1, size=(40, 30)) for seed in range(30)]
+    assert {"fixed-function kernel"} in shadings
+
+
+def test_ellipses_with_borders_or_depths_are_left_to_the_textbook(anisotropic, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "WRAPS", (*WITHOUT_BORDER, gl.GL_CLAMP_TO_BORDER))
+    monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 0.5)
+    shadings = [assert_same(seed, units=1, size=(40, 30)) for seed in range(30)]
+    assert {"program"} in shadings
+
+
+def test_ellipses_may_be_longer_than_a_block(anisotropic, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "COORDINATES", 0.3)
+    monkeypatch.setattr(fixed_function_pictures, "MIN_FILTERS", (gl.GL_LINEAR,))  # without smaller levels
+    for seed in range(40):
+        assert_same(seed, units=1, size=(12, 8), n_triangles=3)
 
 
 def test_uncovered_states_are_shaded_by_the_textbook():
