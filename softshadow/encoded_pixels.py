@@ -5,6 +5,8 @@ References: texstore.c, texgetimage.c and format_utils.c of Mesa 22.3 (`_mesa_fo
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from softshadow import tokens as gl
@@ -20,6 +22,7 @@ from softshadow.color_values import (
     to_unorm8,
 )
 from softshadow.image import Format
+from softshadow.jit import kernel, read_only
 from softshadow.packed_colors import PACKED_COLORS, PackedColor
 from softshadow.pixel_store import COMPONENTS
 from softshadow.texel_codes import (
@@ -42,7 +45,25 @@ def bytes_of(format: Format) -> Format:
 
 def encoded_bytes(cells: np.ndarray, format: Format) -> np.ndarray:
     """Return the cells of a format of bytes as those of one with codes."""
-    return cells_of(codes_of_bytes(cells, format), format)
+    encoded = np.empty(cells.shape, format.dtype)
+    look_up_channels(
+        read_only(np.ascontiguousarray(cells).reshape(-1, 4)), _cells_of_bytes(format), encoded.reshape(-1, 4)
+    )
+    return encoded
+
+
+@lru_cache(maxsize=64)
+def _cells_of_bytes(format: Format) -> np.ndarray:
+    """Return the cells (256, 4) of all bytes in each channel."""
+    return cells_of(codes_of_bytes(np.repeat(np.arange(256)[:, None], 4, axis=1), format), format)
+
+
+@kernel
+def look_up_channels(numbers: np.ndarray, table: np.ndarray, out: np.ndarray) -> None:
+    """Write rows (n, 4) of a table at the numbers (n, 4) of each channel."""
+    for n in range(numbers.shape[0]):
+        for c in range(4):
+            out[n, c] = table[numbers[n, c], c]
 
 
 DIRECT = {  # clients' pixels that Mesa packs at once: RGBA in bytes

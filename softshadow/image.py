@@ -365,10 +365,10 @@ class Image:
         image.blocks = None if self.blocks is None else self.blocks.copy()
         return image
 
-    def is_laid_out_as(self, other: Image) -> bool:
-        """Return whether the other image has the same size, format and internal format."""
-        mine = (self.format, self.internal_format, self.width, self.height, self.slices)
-        return mine == (other.format, other.internal_format, other.width, other.height, other.slices)
+    @property
+    def layout(self) -> tuple[Format, int, int, int, int]:
+        """The format, the internal format, and how many columns, rows and slices there are."""
+        return self.format, self.internal_format, self.width, self.height, self.slices
 
     def same_as(self, other: Any) -> bool:
         """Return whether the other image has the same format, and the same cells bit for bit."""

@@ -4,8 +4,19 @@ import numpy as np
 import pytest
 
 from softshadow import tokens as gl
+from softshadow.encoded_pixels import encoded_bytes
 from softshadow.image import FORMATS
-from softshadow.texel_codes import SRGB, as_halves, cells_of, codes_of, resized, rounded_to_even, rounded_up, srgb_codes
+from softshadow.texel_codes import (
+    SRGB,
+    as_halves,
+    cells_of,
+    codes_of,
+    codes_of_bytes,
+    resized,
+    rounded_to_even,
+    rounded_up,
+    srgb_codes,
+)
 
 WITH_CODES = {name: format for name, format in FORMATS.items() if format.encoding in ("unorm", "srgb")}
 
@@ -58,3 +69,14 @@ def test_srgb_is_a_rising_curve_whose_bytes_come_back():
 
 
 FARTHEST = 0.002  # llvmpipe's polynomial of third degree from the curve of the specification
+
+
+def test_bytes_are_encoded_by_a_table():
+    rgba = np.random.default_rng(2).integers(0, 256, (9, 40, 4)).astype(np.uint8)
+    formats = {format for format in FORMATS.values() if format.has_few_bits}
+    assert len(formats) > 5
+    for format in formats:
+        expected = cells_of(codes_of_bytes(rgba, format), format)
+        cells = encoded_bytes(rgba[::-1], format)  # as upside-down images are
+        assert cells.dtype == expected.dtype
+        np.testing.assert_array_equal(cells[::-1], expected)

@@ -6,7 +6,6 @@ images (`filtering`, `box_filtering`, `cube_filtering`) and writes RGBA.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -71,13 +70,15 @@ def _has_levels(texture: Texture, last: int) -> bool:
     image, base = texture.base(), texture.sampler.base_level
     if image is None or 0 in (image.width, image.height, image.slices):
         return False
-    model = image
+    format, internal_format, *sides = image.layout
     for level in range(base, last + 1):
         if level > base:
-            width, height, slices = (max(side // 2, 1) for side in (model.width, model.height, model.slices))
-            model = replace(model, width=width, height=height, slices=slices)
-        images = [texture.images.get((face, level)) for face in texture.faces]
-        if not all(image is not None and image.is_laid_out_as(model) for image in images):
+            sides = [max(side // 2, 1) for side in sides]
+        layout, images = (
+            (format, internal_format, *sides),
+            [texture.images.get((face, level)) for face in texture.faces],
+        )
+        if not all(image is not None and image.layout == layout for image in images):
             return False
     return last >= base
 

@@ -34,7 +34,7 @@ def assert_same_storage(one: Storage, other: Storage) -> None:
     assert ours.keys() == theirs.keys()
     for name, image in ours.items():
         assert image.same_as(theirs[name]), name
-        assert image.is_laid_out_as(theirs[name]), name
+        assert image.layout == theirs[name].layout, name
     shared = [[a is b for a in images.values() for b in images.values()] for images in (ours, theirs)]
     assert shared[0] == shared[1]
     assert (one.queries, one.active_query) == (other.queries, other.active_query)

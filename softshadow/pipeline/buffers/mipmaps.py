@@ -10,7 +10,8 @@ References: GL 2.1 sec. 3.8.8 (automatic mipmap generation); u_gen_mipmap.c of M
 
 from __future__ import annotations
 
-from typing import Any
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +23,11 @@ from softshadow.jit import kernel
 from softshadow.pipeline.commands import GenerateMipmaps
 from softshadow.pipeline.constants import HALF, ONE
 from softshadow.pixels import quantized_depth, sampled_depth
-from softshadow.programs.filtering import mix_fixed_point
+from softshadow.programs.filtering import mix, mix_fixed_point
 from softshadow.texel_codes import SRGB, cells_of, codes_of, drawn_cells, srgb_codes
 
 STEPS = 256  # of the filter weights in 8 bits
+UPPER_BITS, ONE_BIT = np.uint32(0xFEFEFEFE), np.uint32(1)  # seven of each byte
 
 
 def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
@@ -41,7 +43,7 @@ def generate_mipmaps(command: GenerateMipmaps, storage: Storage) -> None:
         model = images[command.faces[0], level]
         for face in texture.faces:
             old_image = images.get((face, level))
-            if old_image is None or not old_image.is_laid_out_as(model):
+            if old_image is None or old_image.layout != model.layout:
                 shape = model.width, model.height, model.internal_format, model.slices
                 images[face, level] = Image.new(model.format, *shape)
             storage.reattach(command.texture, face, level, images[face, level])
@@ -58,8 +60,9 @@ def next_level(image: Image) -> Image:
     level = Image.new(image.format, width, height, image.internal_format, slices)
     if 0 in (width, height, slices):
         return level
+    texels = image.read_cells[:, : image.width]
     if image.format.kind == "depth":
-        z = halved_in_float(sampled_depth(image.view, image.format)[..., np.newaxis], width, height)[..., 0]
+        z = halved_in_float(sampled_depth(texels, image.format)[..., np.newaxis], width, height)[..., 0]
         level.view[:] = quantized_depth(z, image.format)
         return level
     if image.format.encoding == "srgb" and image.format.base not in (gl.GL_RGB, gl.GL_RGBA):
@@ -68,12 +71,13 @@ def next_level(image: Image) -> Image:
     in_bytes = image.format.kind == "unorm8"
     halved = halved_in_8_bits if in_bytes else halved_in_float
     if image.slices == 1:
-        level.view[:] = _stored(halved(image.view, width, height), image.format)
+        level.view[:] = _stored(halved(texels, width, height), image.format)
         return level
     places = centers_of_slices(image.slices, slices)
     first, second, weight = (texels_and_weights_in_8_bits if in_bytes else texels_and_weights)(places, image.slices)
-    texels = image.view.reshape(image.slices, image.height, image.width, -1)
-    filtered = np.stack([halved(each, width, height) for each in texels])
+    filtered = np.stack(
+        [halved(each, width, height) for each in texels.reshape(image.slices, image.height, image.width, -1)]
+    )
     mixed = mix_in_8_bits if in_bytes else mix_in_float
     for k in range(slices):
         values = mixed(filtered[first[k]], filtered[second[k]], weight[k])
@@ -96,7 +100,9 @@ def _mean_codes(image: Image, width: int, height: int, slices: int) -> np.ndarra
 
     Those of several slices are rounded.
     """
-    codes = codes_of(image.view, image.format).reshape(image.slices, image.height, image.width, 4)
+    codes = codes_of(image.read_cells[:, : image.width], image.format).reshape(
+        image.slices, image.height, image.width, 4
+    )
     steps = [2 if side > 1 else 1 for side in codes.shape[:3]]
     total = np.zeros((slices, height, width, 4), np.int64)
     for k in range(2):
@@ -128,11 +134,53 @@ def centers(n: int, n_other: int, from_far_end: bool) -> np.ndarray:
 
 def halved_in_8_bits(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, 4) uint8 filtered to (height, width, 4)."""
-    columns = texels_and_weights_in_8_bits(centers(width, height, True), texels.shape[1])
-    rows = texels_and_weights_in_8_bits(centers(height, width, False), texels.shape[0])
-    halved = np.empty((height, width, texels.shape[2]), np.uint8)
-    filter_bytes(np.ascontiguousarray(texels), *columns, *rows, halved)
+    columns = filter_in_8_bits(width, height, True, texels.shape[1])
+    rows = filter_in_8_bits(height, width, False, texels.shape[0])
+    texels, halved = np.ascontiguousarray(texels), np.empty((height, width, 4), np.uint8)
+    if columns.takes_means and rows.takes_means:
+        average_fours(texels.view(np.uint32)[..., 0], halved.view(np.uint32)[..., 0])
+    else:
+        filter_bytes(texels, *columns[:3], *rows[:3], halved)
     return halved
+
+
+class AxisFilter(NamedTuple):
+    """What `texels_and_weights_in_8_bits` returns for an axis, and whether these are the means of two texels each."""
+
+    first: np.ndarray
+    second: np.ndarray
+    weight: np.ndarray
+    takes_means: bool
+
+
+@lru_cache(maxsize=256)
+def filter_in_8_bits(n: int, n_other: int, from_far_end: bool, size: int) -> AxisFilter:
+    """Return the filter from `size` texels of an axis to n; the other axis has `n_other` after it."""
+    first, second, weight = texels_and_weights_in_8_bits(centers(n, n_other, from_far_end), size)
+    takes_means = np.array_equal(first, np.arange(n) * 2) and np.array_equal(second, first + 1)
+    return AxisFilter(first, second, weight, takes_means and bool((weight == STEPS // 2).all()))
+
+
+@kernel
+def average_fours(texels, out):
+    """Write the means of 2 x 2 texels of four bytes, rounded up along the columns first, then along the rows."""
+    for y in range(np.uint64(out.shape[0])):
+        lower = y + y
+        upper = lower + np.uint64(1)
+        for x in range(np.uint64(out.shape[1])):
+            left = x + x
+            right = left + np.uint64(1)
+            below, above = (
+                mean_of(texels[lower, left], texels[lower, right]),
+                mean_of(texels[upper, left], texels[upper, right]),
+            )
+            out[y, x] = mean_of(below, above)
+
+
+@kernel
+def mean_of(a, b):
+    """Return the means of two times four bytes, rounded up: `mix_fixed_point` with the weight 1/2."""
+    return np.uint32(np.uint32(a | b) - np.uint32(np.uint32(np.uint32(a ^ b) & UPPER_BITS) >> ONE_BIT))
 
 
 @kernel
@@ -166,21 +214,31 @@ def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarra
 
 def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Return the mixtures of floats."""
-    mixed: np.ndarray = weight * (b - a) + a
+    mixed: np.ndarray = mix(weight, a, b)
     return mixed
 
 
 def halved_in_float(texels: np.ndarray, width: int, height: int) -> np.ndarray:
     """Return texels (h, w, channels) float32 filtered to (height, width, channels)."""
-    first, second, weight = texels_and_weights(centers(width, height, True), texels.shape[1])
-    rows = weight[:, np.newaxis] * (texels[:, second] - texels[:, first]) + texels[:, first]
-    triangle_values: list[Any] = []
-    for from_far_end in (False, True):
-        first, second, weight = texels_and_weights(centers(height, width, from_far_end), texels.shape[0])
-        triangle_values.append(weight[:, np.newaxis, np.newaxis] * (rows[second] - rows[first]) + rows[first])
-    y, x = np.indices((height, width))
-    upper = (2 * y + 1) * width > (2 * x + 1) * height
-    return np.where(upper[..., np.newaxis], triangle_values[1], triangle_values[0])
+    columns = texels_and_weights(centers(width, height, True), texels.shape[1])
+    rows = [texels_and_weights(centers(height, width, upper), texels.shape[0]) for upper in (False, True)]
+    halved = np.empty((height, width, texels.shape[2]), np.float32)
+    filter_floats(np.ascontiguousarray(texels), *columns, *rows[0], *rows[1], halved)
+    return halved
+
+
+@kernel
+def filter_floats(texels, left, right, weight, lower, upper, weight_up, other_lower, other_upper, other_weight_up, out):
+    """Write mixtures of floats: along the columns first, then along the rows, which differ above the diagonal."""
+    height, width, channels = out.shape
+    for y in range(height):
+        for x in range(width):
+            is_above = (2 * y + 1) * width > (2 * x + 1) * height
+            j, k = (other_lower[y], other_upper[y]) if is_above else (lower[y], upper[y])
+            i, next_i, share = left[x], right[x], other_weight_up[y] if is_above else weight_up[y]
+            for c in range(channels):
+                below = mix(weight[x], texels[j, i, c], texels[j, next_i, c])
+                out[y, x, c] = mix(share, below, mix(weight[x], texels[k, i, c], texels[k, next_i, c]))
 
 
 def texels_and_weights(coordinates: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
