@@ -82,7 +82,7 @@ def _draw_programs() -> None:
 
 
 def _move_images() -> None:
-    """Make a texture of an image, and read the window: kernels convert the pixels of large ones."""
+    """Make a texture of an image, and read the window: kernels convert the pixels of large ones, and filter levels."""
     import numpy as np
 
     from softshadow import gl
@@ -95,6 +95,8 @@ def _move_images() -> None:
             np.zeros((side, side, 3), np.uint8),
         )  # fmt: skip
         gl.glReadPixels(0, 0, side, side, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 1, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, None)
+        gl.glGenerateMipmap(gl.GL_TEXTURE_2D)  # of an image with a side that is not even
 
 
 @contextmanager
