@@ -28,7 +28,7 @@ from softshadow.pipeline.fast.fragment_block import (
     whole_portions,
 )
 from softshadow.pipeline.fast.span_floats import texel_of_level
-from softshadow.pipeline.fast.span_levels import NOT_A_NUMBER
+from softshadow.pipeline.fast.span_levels import NOT_A_NUMBER, level_of_detail
 from softshadow.pipeline.fast.span_places import nearest_places
 from softshadow.pipeline.fast.span_state import (
     BIAS,
@@ -50,7 +50,6 @@ from softshadow.pipeline.fast.span_state import (
 from softshadow.pipeline.fast.span_steps import coordinates_at
 from softshadow.programs.anisotropy import LAST_WEIGHT, TWO, WEIGHTS, box_of, ellipse_of, weight_at
 from softshadow.programs.filtering import UNORM8_STEP
-from softshadow.programs.level_of_detail import EXPONENT_BIAS, MANTISSA, MANTISSA_BITS, ONE_BITS
 from softshadow.programs.wrapping import nearest_texel, nearest_texel_at
 
 OUTSIDE = np.float32(LAST_WEIGHT + 1)
@@ -58,7 +57,7 @@ WEIGHTS_IN_BOX = np.append(WEIGHTS, ZERO)  # that of all texels outside the elli
 VALUES = np.arange(256, dtype=np.float32) * UNORM8_STEP  # of bytes
 BYTE = np.int32(255)
 FAR = 1 << 30  # from the image; nearer texels are counted in 32 bits
-STEEP = np.float32(2.0**31 / (SIZE + 1) ** 2)  # sum of coefficients with which a weight's place may not be an integer
+STEEP = np.float32(2.0**31 / (SIZE + 1) ** 2)  # coefficients with this sum may give distances beyond 32 bits
 
 
 @kernel
@@ -92,16 +91,10 @@ def level_of(ux, vx, uy, vy, switches, numbers, unit, number):
     """Return the level of a block of pixels with these steps in texels, as `level_of_detail.truncated_levels`."""
     across, down = ux * ux + vx * vx, uy * uy + vy * vy
     shorter = across if across < down else down
-    squared = np.float32(shorter if across == across else NOT_A_NUMBER)
-    if switches[unit + LOD_MODE] == CONSTANT_LEVEL:
-        level = numbers[number + LEAST]
-    else:
-        bits = squared.view(np.int32)
-        mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)
-        exponent = np.float32(np.int32((bits >> MANTISSA_BITS) - (EXPONENT_BIAS + 1)))
-        level = HALF * (exponent + mantissa) + numbers[number + BIAS]
-        level = level if level < numbers[number + MOST] else numbers[number + MOST]
-        level = level if level > numbers[number + LEAST] else numbers[number + LEAST]
+    level = least = numbers[number + LEAST]
+    if switches[unit + LOD_MODE] != CONSTANT_LEVEL:
+        squared = shorter if across == across else NOT_A_NUMBER
+        level = level_of_detail(squared, numbers[number + BIAS], least, numbers[number + MOST])
     last = np.float32(switches[unit + LAST_LEVEL])
     level = level if level < last else last
     return np.int64(level) if level > ZERO else 0

@@ -110,6 +110,16 @@ def quads_of(spans, s):
     return left & ~1, ((left + length - 1) >> 1) - (left >> 1) + 1
 
 
+@copied_kernel
+def level_of_detail(squared, bias, least, most):
+    """Return the level of detail of squared texels per pixel, between the least and the most one."""
+    bits = np.float32(squared).view(np.int32)
+    mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)
+    level = HALF * (np.float32(np.int32((bits >> MANTISSA_BITS) - (EXPONENT_BIAS + 1))) + mantissa) + bias
+    level = level if level < most else most
+    return level if level > least else least
+
+
 @kernel
 def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
     """Write LEVEL (the lower one), WEIGHT of the next one, and LINEAR; as `level_of_detail.select_levels`.
@@ -151,11 +161,7 @@ def select_levels_of_block(switches, numbers, unit, number, count, room, whole):
                 for n in range(np.uint64(count)):
                     room[SQUARED + n] = room[SQUARED + n] * room[SQUARED + n]
             for n in range(np.uint64(count)):
-                bits = np.float32(room[SQUARED + n]).view(np.int32)
-                mantissa = np.int32(bits & MANTISSA | ONE_BITS).view(np.float32)
-                level = HALF * (np.float32(np.int32((bits >> MANTISSA_BITS) - (EXPONENT_BIAS + 1))) + mantissa) + bias
-                level = level if level < most else most
-                room[SQUARED + n] = level if level > least else least
+                room[SQUARED + n] = level_of_detail(room[SQUARED + n], bias, least, most)
         for n in range(np.uint64(count)):
             level = room[SQUARED + n]
             floor = np.floor(level) if between == GL_LINEAR else np.rint(level)
