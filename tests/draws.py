@@ -76,9 +76,9 @@ def draw(context: Context, state: State, triangles: Vertices, mode: int = gl.GL_
 
 
 def same_window(a: Context, b: Context) -> bool:
-    """Return whether colour, depth and stencil are equal to the last bit."""
-    windows = a.storage.window, b.storage.window
-    return all(windows[0].attachments[k].image.same_as(windows[1].attachments[k].image) for k in windows[0].attachments)
+    """Return whether colour, depth and stencil are equal to the last bit, in the window or what is drawn to."""
+    mine, theirs = (each.storage.framebuffers[each.state.draw_framebuffer].attachments for each in (a, b))
+    return all(mine[k].image.same_as(theirs[k].image) for k in mine)
 
 
 def surface_blended_twice(seed, func, blending, overlapping, precision="mesa"):

@@ -172,6 +172,19 @@ def random_special_fragments(rng):
         gl.glPolygonMode(face, pick(rng, (gl.GL_FILL, gl.GL_LINE, gl.GL_POINT)))
 
 
+def draw_to_texture(internal_format, width, height):
+    """Bind a framebuffer with a texture of this format, and with depths and stencil values."""
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, gl.glGenFramebuffers(1))
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture := gl.glGenTextures(1))
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, internal_format, width, height, 0, gl.GL_RGBA, gl.GL_FLOAT, None)
+    gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, gl.GL_COLOR_ATTACHMENT0, gl.GL_TEXTURE_2D, texture, 0)
+    gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, buffer := gl.glGenRenderbuffers(1))
+    gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, gl.GL_DEPTH24_STENCIL8, width, height)
+    for attachment in (gl.GL_DEPTH_ATTACHMENT, gl.GL_STENCIL_ATTACHMENT):
+        gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, attachment, gl.GL_RENDERBUFFER, buffer)
+    gl.glBindTexture(gl.GL_TEXTURE_2D, 0)
+
+
 def random_picture(
     seed,
     *,
@@ -183,15 +196,19 @@ def random_picture(
     white=False,
     counted=False,
     units=None,
+    stored_as=None,
     **options,
 ):
     """Return a window after a draw in a random state of the fixed function, over a random background.
 
     `ordered`: with blending or a logic operation; `tested`: with alpha test; `special`: see `random_special_fragments`;
-    `white`: all vertices have this colour, without lighting and fog; `counted`: an occlusion query counts fragments.
+    `white`: all vertices have this colour, without lighting and fog; `counted`: an occlusion query counts fragments;
+    `stored_as`: the internal format of a texture that is drawn to, in place of the window.
     """
     rng = np.random.default_rng(seed)
     context = gl.create_context(*size, **options)
+    if stored_as:
+        draw_to_texture(stored_as, *size)
     gl.glClearColor(*rng.random(4).tolist())
     gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
     count = rng.integers(0, 5) if units is None else units

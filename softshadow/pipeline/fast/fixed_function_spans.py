@@ -21,6 +21,7 @@ from softshadow.pipeline.fast.segment_tables import (
     tables_of,
     texels_of_units,
 )
+from softshadow.pipeline.fast.span_float_writes import pixels_of
 from softshadow.pipeline.fast.span_tests import NO_OPS
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL
 from softshadow.pipeline.memory.scratch import scratch
@@ -43,7 +44,7 @@ def fixed_function_shader(state: State, target: Framebuffer, geometry: Geometry)
     numbers = covered_state(state, target, geometry, units)
     if numbers is None:
         return None
-    triangles, pixels = geometry.triangles, target.colors[0].cells.view(np.int32)[..., 0]
+    triangles, pixels = geometry.triangles, pixels_of(target.colors[0])
     tables, textures = tables_of(NO_OPS, NO_OPS, *numbers, NO_SPECIAL), padded_textures(texels_of_units(units))
     flats = np.array([geometry.flat])
 

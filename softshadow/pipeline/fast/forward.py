@@ -23,6 +23,7 @@ from softshadow.pipeline.fast.segment_tables import (
     padded_textures,
     texels_of_units,
 )
+from softshadow.pipeline.fast.span_float_writes import pixels_of
 from softshadow.pipeline.memory.scratch import apart, row_columns, scratch
 from softshadow.pipeline.memory.threads import share, threads
 from softshadow.pipeline.raster.bins import BAND_ROWS, rows_of_few_bands, triangles_in_bands
@@ -120,7 +121,7 @@ def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.
     return (
         NO_DEPTH if depth is None else depth.cells if writes_depth else depth.read_cells,
         NO_STENCIL if stencil is None else stencil.cells,
-        target.colors[0].cells.view(np.int32)[..., 0],
+        pixels_of(target.colors[0]),
     )
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import read_only
 from softshadow.pipeline.fast.drawn_surfaces import only_lessens_depths
@@ -94,11 +95,13 @@ def covered_state(
 ) -> StateNumbers | None:
     """Return the numbers of a draw's fragment state, or None where the textbook has to shade.
 
-    The kernels take the fixed function in float32 and one colour buffer of four bytes, which no unit samples. `units`
-    are those in use, None where a program is no fixed function.
+    The kernels take the fixed function in float32 and one colour buffer, which no unit samples, of bytes or of floats;
+    with alpha test, of bytes. `units` are those in use, None where a program is no fixed function.
     """
-    colors = target.colors
+    colors, tests_alpha = target.colors, state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
     if units is None or geometry.window.dtype != np.float32 or len(colors) != 1:
+        return None
+    if tests_alpha and colors[0].format.kind == "float":
         return None
     if any(image is attached.image for unit in units for image in unit.texture.images.values()
            for attached in target.attachments.values()):  # fmt: skip

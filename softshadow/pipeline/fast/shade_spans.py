@@ -20,6 +20,8 @@ from softshadow.pipeline.fast.fragment_block import (
     SPAN_START,
 )
 from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
+from softshadow.pipeline.fast.span_float_writes import write_float_block
+from softshadow.pipeline.fast.span_state import BYTES, STORED_AS
 from softshadow.pipeline.fast.span_tests import (
     IS_TESTED,
     test_alpha_of_block,
@@ -36,7 +38,7 @@ def shade_spans(
     own_textures, special, pixels, depth_planes, faces_front, alpha_test, tests_depth, tests_stencil, test_numbers,
     test_bytes, largest, low, high, depth, stencil, room, whole, spans, own_triangles,
 ):  # fmt: skip
-    """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (H, pitch) int32.
+    """Shade `n_all` spans, as many at a time as fit into a block, and write them to `pixels` (see `pixels_of`).
 
     Spans that may overlap are blended in their order. With alpha test, or where `special` (`special_numbers`) leaves
     fragments out, they are tested before they are written; the arguments from `depth_planes` to `stencil` are read for
@@ -69,4 +71,8 @@ def shade_spans(
                     tests_depth, tests_stencil, test_numbers, test_bytes, largest, low, high, depth, stencil, spans,
                     n_spans, own_triangles, depth_planes, faces_front, room, whole,
                 )  # fmt: skip
-        write_block(spans, n_spans, may_overlap, switches, alpha_test[IS_TESTED] != 0, whole, pixels)
+        is_masked = alpha_test[IS_TESTED] != 0
+        if switches[STORED_AS] == BYTES:
+            write_block(spans, n_spans, may_overlap, switches, is_masked, whole, pixels)
+        else:
+            write_float_block(spans, n_spans, switches, is_masked, room, whole, pixels)

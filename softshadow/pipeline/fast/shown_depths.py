@@ -14,7 +14,7 @@ from softshadow.image import Image
 from softshadow.jit import kernel
 from softshadow.pipeline.commands import Draw, DrawDepths
 from softshadow.pipeline.fast.shown_rectangles import Place, Shown, shown_part, shows_texels
-from softshadow.pipeline.fast.span_state import is_covered
+from softshadow.pipeline.fast.span_state import has_four_bytes
 from softshadow.pipeline.raster.depth import depth_units
 from softshadow.pipeline.raster.fragment_ops import NO_ALPHA, FragmentOps, compare, fragment_ops, process_fragment
 from softshadow.pipeline.raster.region import buffer_cells, depth_range_of
@@ -106,7 +106,7 @@ def _write_color(command: DrawDepths, target: Framebuffer, place: Place, passed:
     """Write the colour of the rectangle where depths have passed, (h, w) bool."""
     state, color = command.draw.state, np.array([command.color], np.float32)
     for image in target.colors:
-        if state.blend.enabled or state.blend.logic_enabled or not is_covered(image.format):
+        if state.blend.enabled or state.blend.logic_enabled or not has_four_bytes(image.format):
             _write_fragments(state, image, place, passed, color)
             continue
         pixels, writable = as_pixels(image.cells)[place], writable_bits(state, image)

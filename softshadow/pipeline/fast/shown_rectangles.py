@@ -12,7 +12,7 @@ import numpy as np
 
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.span_state import is_covered
+from softshadow.pipeline.fast.span_state import has_four_bytes
 from softshadow.pipeline.raster.fragment_ops import FragmentOps
 from softshadow.pipeline.raster.region import region_of
 from softshadow.pipeline.shade.color_writes import as_pixels, colors_to_bytes, writable_bits
@@ -32,7 +32,7 @@ def is_shown(command: Draw, target: Framebuffer, ops: FragmentOps) -> bool:
     """Return whether an opaque draw copies texels, and only the scissor box tests its fragments."""
     if ops.depth_test or ops.stencil_test or not shows_texels(command):
         return False
-    return all(is_covered(image.format) and not image.format.encoding for image in target.colors)
+    return all(has_four_bytes(image.format) and not image.format.encoding for image in target.colors)
 
 
 def shows_texels(command: Draw) -> bool:

@@ -28,6 +28,7 @@ from softshadow.pipeline.fast.span_state import (
     ADD,
     ALPHA_OPERATION,
     BLEND,
+    BYTES,
     CHANNELS,
     COMBINE,
     COMBINES,
@@ -50,6 +51,7 @@ from softshadow.pipeline.fast.span_state import (
     REPLACE,
     RGB_OPERATION,
     SEPARATE,
+    STORED_AS,
     SWITCHES_OF_UNIT,
     UNIT_NUMBERS,
     UNIT_SWITCHES,
@@ -68,18 +70,21 @@ SECONDARY = np.uint64(4) * ROW
 
 @inlined
 def shade_block(planes, spans, n_spans, count, flat, switches, numbers, textures, own_textures, special, room, whole):
-    """Write PACKED, the colours of all fragments of a block as bytes; the colours stay in the first rows of `room`.
+    """Write PACKED, the colours of all fragments of a block as bytes; they stay in the first rows of `room`.
+
+    Colours of a buffer of floats are written there only.
 
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments;
     `own_textures` (UNITS,) which of the textures the units have.
     """
-    if switches[NEEDED] == FOUR_COLUMNS:  # nothing but the colours
+    in_bytes = switches[STORED_AS] == BYTES
+    if in_bytes and switches[NEEDED] == FOUR_COLUMNS:  # nothing but the colours
         if flat[0] and flat[1] and flat[2] and flat[3]:
             write_constant_colors(planes, spans, n_spans, room, whole)
         else:
             write_smooth_colors(planes, spans, n_spans, flat, room, whole)
         return
-    if copies_texels(planes, spans, n_spans, flat, switches, special):
+    if in_bytes and copies_texels(planes, spans, n_spans, flat, switches, special):
         interpolate_block(planes, spans, n_spans, flat, switches[NEEDED] & ~FOUR_COLUMNS, room)
         place_block(
             planes, spans, n_spans, count, flat, switches, numbers, UNIT_SWITCHES, UNIT_NUMBERS, room, whole
@@ -110,7 +115,8 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, textures
     if switches[FOG]:
         apply_fog_to_block(switches, numbers, count, room)
     cover_block(special, count, room)
-    pack_block(count, room, whole)
+    if in_bytes:
+        pack_block(count, room, whole)
 
 
 @kernel

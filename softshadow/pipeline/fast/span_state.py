@@ -18,6 +18,7 @@ from softshadow.pipeline.fast.combine_numbers import CONSTANT_COLOR, write_combi
 from softshadow.pipeline.fast.fragment_block import COLUMNS, OTHER_TEXEL, PRIMARY, SIZE, TEXEL
 from softshadow.pipeline.fast.span_texels import LEVELS, level_offsets
 from softshadow.pipeline.shade.blend import FOUR_BYTES, BlendOps, blend_ops
+from softshadow.pipeline.shade.float_writes import is_weighted_sum
 from softshadow.pixels import LARGEST_UINT
 from softshadow.programs.box_filtering import box_wraps
 from softshadow.programs.filtering import border_of, in_8_bits, sources_of, unit_of, wraps_of
@@ -40,7 +41,8 @@ UNITS = 4  # texture units at most
 # in `switches`
 NEEDED, SEPARATE, FOG, FOG_COLUMN, N_UNITS, WRITABLE, BLENDS = range(7)
 LOGIC_OP, EQUATION_RGB, EQUATION_ALPHA, SATURATES, SOURCE_TERMS, TARGET_TERMS, COMBINES = 7, 8, 9, 10, 11, 17, 23
-UNIT_SWITCHES, SWITCHES_OF_UNIT = 24, 69
+STORED_AS = 24  # what colours are in the buffer, see below
+UNIT_SWITCHES, SWITCHES_OF_UNIT = 25, 69
 (
     PATH, S_COLUMN, WRAP_S, WRAP_T, WIDTH, HEIGHT, ROW_LENGTH, LAST_LEVEL, LOD_MODE, BETWEEN, MIN_LINEAR, MAG_LINEAR,
     CHANNELS, _, _, _, RGB_OPERATION, ALPHA_OPERATION, COMPARISON, CLAMPED, PACKED_LEVELS, IS_DEPTH, IS_SPREAD, READS_R,
@@ -62,6 +64,7 @@ KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND, COMBINE = range(7)
 NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
 FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
 NO_BLENDING, BLENDING, LOGIC = range(3)
+BYTES, FLOATS, HALVES = range(3)  # half floats are stored as floats
 # whether units combine: none; each with its own texel; with those of the other one, too
 NO_COMBINING, IN_TURN, WITH_OTHER = range(3)
 # results of a comparison as bits: less, equal, greater, unordered
@@ -92,7 +95,7 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
     color : format of the only colour buffer, or None where no colour is written
     columns : how many values are interpolated
     """
-    if len(units) > UNITS or columns > COLUMNS or (color is not None and not is_covered(color)):
+    if len(units) > UNITS or columns > COLUMNS or (color is not None and not color.is_drawn_to):
         return None
     key = (
         state.fog, state.blend, state.color.mask, has_secondary(state), color,
@@ -105,8 +108,8 @@ def span_state(state: State, units: list[Unit], color: Format | None, columns: i
     return _numbers[key]
 
 
-def is_covered(color: Format) -> bool:
-    """Return whether the kernels write colours of a format: four bytes per pixel."""
+def has_four_bytes(color: Format) -> bool:
+    """Return whether a format has four bytes per pixel."""
     return color.kind == "unorm8" and color.base in FOUR_BYTES
 
 
@@ -157,6 +160,11 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
     if color is not None:
         mask = np.array(state.color.mask) & np.array(color.written)
         switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
+        if color.kind == "float":
+            switches[STORED_AS] = HALVES if color.encoding == "half" else FLOATS
+            return StateNumbers(switches, numbers) if _write_float_blending(state, color, switches) else None
+        if not has_four_bytes(color):
+            return None
         _write_blending(state, blend_ops(state.blend, color), switches)
     return StateNumbers(switches, numbers)
 
@@ -314,6 +322,18 @@ def _write_blending(state: State, ops: BlendOps, switches: np.ndarray) -> None:
     switches[TARGET_TERMS : TARGET_TERMS + 6] = factor_terms(ops.dst_rgb, ops.dst_alpha, constant)
     for bit, name in enumerate((ops.src_rgb, ops.src_alpha, ops.dst_rgb, ops.dst_alpha)):
         switches[SATURATES] |= (name == gl.GL_SRC_ALPHA_SATURATE) << bit
+
+
+def _write_float_blending(state: State, color: Format, switches: np.ndarray) -> bool:
+    """Write by what floats are weighted where they are blended; return False if more happens. They have no logic."""
+    if not state.blend.enabled or state.blend.logic_enabled:
+        return True
+    ops = blend_ops(state.blend, color)
+    if not is_weighted_sum(ops):
+        return False
+    switches[BLENDS] = BLENDING
+    switches[SOURCE_TERMS], switches[TARGET_TERMS] = ops.src_rgb != gl.GL_ONE, ops.dst_rgb != gl.GL_ONE
+    return True
 
 
 PLAIN = {

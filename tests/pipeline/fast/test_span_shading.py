@@ -1,15 +1,18 @@
 """The kernels that shade blocks of fragments leave the bits of the shading stage, for any fixed-function state."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import fixed_function_pictures
 from draws import same_window
-from fixed_function_pictures import random_picture
+from fixed_function_pictures import pick, random_picture
 from softshadow import gl
 from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
 from softshadow.pipeline.fast import fragment_block
+from softshadow.state import Blend
 
 OWN_SOURCES = (gl.GL_TEXTURE, gl.GL_CONSTANT, gl.GL_PRIMARY_COLOR, gl.GL_PREVIOUS)
 WITHOUT_BORDER = (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE, gl.GL_CLAMP, gl.GL_MIRRORED_REPEAT)
@@ -201,6 +204,29 @@ def test_ellipses_may_be_longer_than_a_block(anisotropic, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "MIN_FILTERS", (gl.GL_LINEAR,))  # without smaller levels
     for seed in range(40):
         assert_same(seed, units=1, size=(12, 8), n_triangles=3)
+
+
+def weighted_sum(rng, state):
+    """Return a state that adds the source to the target, either weighted by the source's alpha or not."""
+    source, target = pick(rng, (gl.GL_ONE, gl.GL_SRC_ALPHA)), pick(rng, (gl.GL_ONE, gl.GL_ONE_MINUS_SRC_ALPHA))
+    has_logic = bool(rng.random() < 0.1)  # which floats have not
+    add = gl.GL_FUNC_ADD, gl.GL_FUNC_ADD
+    return replace(state, blend=Blend(True, *(source, target) * 2, *add, (0.0,) * 4, has_logic, gl.GL_XOR))
+
+
+@pytest.mark.parametrize("format", [gl.GL_RGBA32F, gl.GL_RGB16F, gl.GL_RG32F, gl.GL_RGBA16F])
+@pytest.mark.parametrize("blending", ["none", "weighted sum", "any"])
+def test_colours_are_written_into_floats(format, blending, monkeypatch):
+    monkeypatch.setattr(fixed_function_pictures, "TARGETS", (gl.GL_TEXTURE_2D,))
+    if blending == "weighted sum":
+        monkeypatch.setattr(fixed_function_pictures, "random_blending", weighted_sum)
+    shadings = set()
+    for seed in range(30):
+        ways = {"ordered": blending != "none", "special": seed % 5 == 2, "white": seed % 7 == 3}
+        ways["tested"] = blending == "any" and seed % 4 == 1  # floats are compared by the textbook
+        shadings |= assert_same(seed, stored_as=format, units=seed % 3, size=(40, 30), **ways)
+    assert "fixed-function kernel" in shadings
+    assert ("program" in shadings) == (blending == "any")
 
 
 def test_uncovered_states_are_shaded_by_the_textbook():
