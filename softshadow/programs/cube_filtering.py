@@ -17,12 +17,12 @@ import numpy as np
 from softshadow.jit import kernel
 from softshadow.programs.filtering import (
     CONSTANT_ZERO,
-    cells_in_float,
     clamp_to_unit,
+    fetch,
     mix,
     passes,
     sources_of,
-    texels_in_float,
+    texels_of,
 )
 from softshadow.programs.wrapping import HALF, ONE, ZERO, linear_texels, nearest_texel, to_integer
 from softshadow.texture import Texture
@@ -72,11 +72,12 @@ def filter_cube(
     """
     sampler, image, real = texture.sampler, texture.base(), places.dtype
     assert image is not None
-    in_use, which = np.unique(levels, return_inverse=True)
-    sides = np.array([texture.images[0, int(level)].width for level in in_use])[which]
+    sides = np.zeros(levels.max(initial=0) + 1, np.int64)
+    for level in np.flatnonzero(np.bincount(levels)).tolist():
+        sides[level] = texture.images[0, level].width
     n = len(places)
     neighbors = Neighbors(np.empty((n, 4, 3), np.int32), np.empty((n, 2), real), np.empty(n, np.int8))
-    find_neighbors(faces, places, sides, kinds, bool(sampler.seamless), neighbors)
+    find_neighbors(faces, places, sides[levels], kinds, bool(sampler.seamless), neighbors)
     texels = gather_texels_by_level(texture, levels, neighbors.texels, real)
     sources, out = sources_of(image, sampler), np.empty((n, 4), real)
     if image.format.kind == "depth" and sampler.compare_mode != GL_NONE:
@@ -90,20 +91,23 @@ def gather_texels_by_level(texture: Texture, levels: np.ndarray, texels: np.ndar
     """Return the values (N, 4, channels), in [0, 1] units, of texels (N, 4, 3) in levels (N,)."""
     image = texture.base()
     assert image is not None
-    of_texels = np.repeat(levels, 4).reshape(-1, 4)
     values = np.empty((*texels.shape[:2], image.format.channels), real)
-    for level in np.unique(levels):
-        for face in texture.faces:
-            chosen = (of_texels == level) & (texels[..., 0] == face)
-            if chosen.any():
-                x, y = texels[chosen, 1], texels[chosen, 2]
-                source = texture.images[face, int(level)]
-                if source.format.has_few_bits:
-                    values[chosen] = cells_in_float(source)[y, x]
-                    continue
-                cells = source.cells[y, x]
-                values[chosen] = texels_in_float(cells.reshape(len(x), -1), image.format, real)
+    for level in np.flatnonzero(np.bincount(levels)).tolist():
+        faces = [texels_of(texture.images[face, level], texture.sampler, real) for face in texture.faces]
+        _, border, unit = faces[0]
+        gather_from_faces(tuple(cells for cells, _, _ in faces), border, unit, level, levels, texels, values)
     return values
+
+
+@kernel
+def gather_from_faces(faces, border, unit, level, levels, texels, values):
+    """Write the values of those texels whose level is this one; `faces` are the cells of the six images."""
+    for n in range(values.shape[0]):
+        if levels[n] == level:
+            for i in range(4):
+                cells, x, y = faces[texels[n, i, 0]], texels[n, i, 1], texels[n, i, 2]
+                for c in range(values.shape[2]):
+                    values[n, i, c] = fetch(cells, cells.shape[1], border, unit, x, y, c)
 
 
 @kernel

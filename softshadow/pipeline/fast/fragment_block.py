@@ -32,8 +32,8 @@ W, COLUMN, LINE, S, T, R, SQUARED, QUADS, WEIGHT, DEPTH = _rows(COLUMNS, 10)
 TEXEL, TEXEL_GREEN, TEXEL_BLUE, TEXEL_ALPHA = _rows(COLUMNS + 10, 4)  # red, green, blue, alpha
 ROW = np.uint64(SIZE)
 OTHER_TEXEL, PRIMARY = _rows(COLUMNS + 14, 8)[::4]  # for GL_COMBINE: the other unit's texel, and the primary colour
-LOWER_TEXEL = _rows(COLUMNS + 22, 4)[0]  # of the lower of two levels, see `span_floats`
-FLOAT_ROWS = COLUMNS + 26
+LOWER_TEXEL, SLICE_TEXEL = _rows(COLUMNS + 22, 8)[::4]  # of the lower of two levels, and of the first of two slices
+FLOAT_ROWS = COLUMNS + 30
 # rows of `whole`; those of the s axis, then of the t axis, and after all others those of the r axis
 LENGTH, FIRST, SECOND, FRACTION = _rows(0, 4)
 T_AXIS = np.uint64(4 * SIZE)

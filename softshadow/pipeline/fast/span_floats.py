@@ -18,6 +18,7 @@ from softshadow.pipeline.fast.fragment_block import (
     NEXT,
     OFFSET,
     PITCH,
+    R_AXIS,
     ROW,
     T_AXIS,
     TEXEL,
@@ -31,6 +32,7 @@ from softshadow.pipeline.fast.fragment_block import (
     W,
 )
 from softshadow.pipeline.fast.span_bytes import BYTE
+from softshadow.pipeline.fast.span_cubes import FACE
 from softshadow.pipeline.fast.span_linear import (
     CODES,
     begin_upper_level_in_float,
@@ -38,19 +40,22 @@ from softshadow.pipeline.fast.span_linear import (
     filter_linearly,
     mix_levels,
 )
-from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, nearest_places, write_places
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, move_by_slices, nearest_places, write_places
 from softshadow.pipeline.fast.span_state import (
     BORDER,
     CLAMPED,
     COMPARISON,
     HEIGHT,
+    IS_CUBE,
     IS_DEPTH,
     IS_WIDE,
     LEVEL_OFFSETS,
     PACKED_LEVELS,
     ROW_LENGTH,
+    SLICES,
     STEP,
     WIDTH,
+    WRAP_R,
     WRAP_S,
     WRAP_T,
 )
@@ -64,8 +69,16 @@ OUTSIDE_IMAGE = np.int32(-1)  # as a place
 def find_nearest(switches, unit, count, room, whole):
     """Write FILTERED: where the nearest texels are stored, or OUTSIDE_IMAGE."""
     write_places(switches, unit, count, whole)
+    if switches[unit + IS_CUBE]:
+        move_by_slices(FACE, count, whole)
     nearest_places(S, np.uint64(0), switches[unit + WRAP_S], FIRST, count, room, whole)
     nearest_places(T, T_AXIS, switches[unit + WRAP_T], FIRST, count, room, whole)
+    if switches[unit + SLICES]:
+        nearest_places(R, R_AXIS, switches[unit + WRAP_R], FIRST, count, room, whole)
+        move_by_slices(R_AXIS + FIRST, count, whole)
+        for n in range(np.uint64(count)):  # a row outside, if the slice is
+            is_inside = np.uint32(whole[R_AXIS + FIRST + n]) < np.uint32(whole[R_AXIS + LENGTH + n])
+            whole[T_AXIS + FIRST + n] = whole[T_AXIS + FIRST + n] if is_inside else OUTSIDE_IMAGE
     for n in range(np.uint64(count)):
         i, j = whole[FIRST + n], whole[T_AXIS + FIRST + n]
         inside = (np.uint32(i) < np.uint32(whole[LENGTH + n])) & (np.uint32(j) < np.uint32(whole[T_AXIS + LENGTH + n]))

@@ -18,8 +18,11 @@ from softshadow.pipeline.fast.fragment_block import (
     LENGTH,
     LEVEL,
     LOWER_TEXEL,
+    QUADS,
+    R_AXIS,
     ROW,
     SECOND,
+    SLICE_TEXEL,
     SQUARED,
     T_AXIS,
     TEXEL,
@@ -33,14 +36,29 @@ from softshadow.pipeline.fast.fragment_block import (
     W,
 )
 from softshadow.pipeline.fast.span_bytes import BYTE, gather
-from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, write_corners, write_places
-from softshadow.pipeline.fast.span_state import BORDER, CLAMPED, COMPARISON, IS_DEPTH, IS_WIDE, STEP, WRAP_S, WRAP_T
+from softshadow.pipeline.fast.span_cubes import FACE
+from softshadow.pipeline.fast.span_places import NOTHING, ONE_TEXEL, move_by_slices, write_corners, write_places
+from softshadow.pipeline.fast.span_state import (
+    BORDER,
+    CLAMPED,
+    COMPARISON,
+    IS_CUBE,
+    IS_DEPTH,
+    IS_LINE,
+    IS_WIDE,
+    SLICES,
+    STEP,
+    WRAP_R,
+    WRAP_S,
+    WRAP_T,
+)
 from softshadow.programs.wrapping import REPEAT_BY_MASK, mirror, to_int32
 from softshadow.tokens import GL_CLAMP, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT, GL_REPEAT
 
 LESS, EQUAL, GREATER, UNORDERED, CODES = np.int32(1), np.int32(2), np.int32(4), np.int32(8), np.int32(15)
 OUT_00, OUT_10, OUT_01, OUT_11 = np.int32(1), np.int32(2), np.int32(4), np.int32(8)  # corners outside the image
-X_WEIGHT, Y_WEIGHT, OUTSIDE = W, SQUARED, FILTERED  # rows that nothing else needs any more, or not yet
+ALL_OUT = OUT_00 | OUT_10 | OUT_01 | OUT_11
+X_WEIGHT, Y_WEIGHT, Z_WEIGHT, OUTSIDE = W, SQUARED, QUADS, FILTERED  # rows that nothing else needs any more, or not yet
 TIMES_FOUR = np.uint32(2)  # as a shift
 
 
@@ -54,10 +72,7 @@ def begin_upper_level_in_float(count, room, whole):
         return False
     for n in range(np.uint64(count)):
         whole[LEVEL + n] += ONE_TEXEL if room[WEIGHT + n] > ZERO else NOTHING
-    for channel in range(4):
-        row = np.uint64(channel) * ROW
-        for n in range(np.uint64(count)):
-            room[LOWER_TEXEL + row + n] = room[TEXEL + row + n]
+    copy_texels_to(LOWER_TEXEL, count, room)
     return True
 
 
@@ -76,12 +91,47 @@ def mix_levels(count, room):
 def filter_linearly(switches, numbers, unit, number, count, texels, room, whole):
     """Write the texels of linear filters on one level each; of depths, only the first channel."""
     write_places(switches, unit, count, whole)
+    if switches[unit + IS_CUBE]:
+        move_by_slices(FACE, count, whole)
     linear_places_in_float(S, np.uint64(0), switches[unit + WRAP_S], X_WEIGHT, count, room, whole)
     linear_places_in_float(T, T_AXIS, switches[unit + WRAP_T], Y_WEIGHT, count, room, whole)
     note_outside(count, whole)
+    if not switches[unit + SLICES]:
+        filter_image(switches, numbers, unit, number, count, texels, room, whole)
+        return
+    linear_places_in_float(R, R_AXIS, switches[unit + WRAP_R], Z_WEIGHT, count, room, whole)
+    move_by_slices(R_AXIS + FIRST, count, whole)
+    note_outside_of_slices(R_AXIS + FIRST, count, whole)
+    filter_image(switches, numbers, unit, number, count, texels, room, whole)
+    copy_texels_to(SLICE_TEXEL, count, room)
+    for n in range(np.uint64(count)):  # how far the second slice is from the first one
+        whole[R_AXIS + FIRST + n] = whole[R_AXIS + SECOND + n] - whole[R_AXIS + FIRST + n]
+    move_by_slices(R_AXIS + FIRST, count, whole)
+    note_outside(count, whole)
+    note_outside_of_slices(R_AXIS + SECOND, count, whole)
+    filter_image(switches, numbers, unit, number, count, texels, room, whole)
+    for channel in range(4):
+        row = np.uint64(channel) * ROW
+        for n in range(np.uint64(count)):
+            lower = room[SLICE_TEXEL + row + n]
+            room[TEXEL + row + n] = room[Z_WEIGHT + n] * (room[TEXEL + row + n] - lower) + lower
+
+
+@kernel
+def copy_texels_to(rows, count, room):
+    """Copy the rows from TEXEL on."""
+    for channel in range(4):
+        row = np.uint64(channel) * ROW
+        for n in range(np.uint64(count)):
+            room[rows + row + n] = room[TEXEL + row + n]
+
+
+@kernel
+def filter_image(switches, numbers, unit, number, count, texels, room, whole):
+    """Write the texels of linear filters on the image that begins at OFFSET."""
     write_corners(count, whole)
     if switches[unit + IS_WIDE]:
-        mix_floats(numbers, number, count, texels.view(np.float32), room, whole)
+        mix_floats(switches[unit + IS_LINE] != 0, numbers, number, count, texels.view(np.float32), room, whole)
         return
     if not switches[unit + IS_DEPTH]:
         mix_colors(numbers, number, count, texels, room, whole)
@@ -160,6 +210,14 @@ def note_outside(count, whole):
 
 
 @kernel
+def note_outside_of_slices(slices, count, whole):
+    """Add to OUTSIDE all texels of those slices, in the row `slices`, which are outside the image."""
+    for n in range(np.uint64(count)):
+        is_inside = np.uint32(whole[slices + n]) < np.uint32(whole[R_AXIS + LENGTH + n])
+        whole[OUTSIDE + n] |= NOTHING if is_inside else ALL_OUT
+
+
+@kernel
 def mix_colors(numbers, number, count, texels, room, whole):
     """Write the four channels of a colour texture."""
     step = numbers[number + STEP]
@@ -183,8 +241,8 @@ def mix_colors(numbers, number, count, texels, room, whole):
 
 
 @kernel
-def mix_floats(numbers, number, count, values, room, whole):
-    """Write the four channels of a colour texture of floats, four `values` for each texel."""
+def mix_floats(is_line, numbers, number, count, values, room, whole):
+    """Write the four channels of a colour texture of floats, four `values` for each texel; infinite ones stay."""
     largest = np.uint32((len(values) >> 2) - 1)
     for n in range(np.uint64(count)):
         whole[CORNER_00 + n] = np.int32(min(np.uint32(whole[CORNER_00 + n]), largest) << TIMES_FOUR)
@@ -200,7 +258,7 @@ def mix_floats(numbers, number, count, values, room, whole):
             a, b = border if out & OUT_00 else a, border if out & OUT_10 else b
             e, f = border if out & OUT_01 else e, border if out & OUT_11 else f
             a, e = x * (b - a) + a, x * (f - e) + e
-            room[TEXEL + channel * ROW + n] = y * (e - a) + a
+            room[TEXEL + channel * ROW + n] = a if is_line else y * (e - a) + a
 
 
 @kernel

@@ -2,8 +2,8 @@
 
 The kernels that shade spans take the state as an array of integers, `switches`, and an array of float32, `numbers`:
 passing two arrays takes a fraction of a microsecond, and no state has to be compiled. What is not covered here
-(cube maps, 1-D and 3-D textures of floats, cube maps that are seamless or of depths, borders of 1-D and 3-D textures,
-anisotropic filters with borders, more than four units ...) is shaded by the textbook.
+(cube maps that are seamless or of depths, anisotropic filters with borders, more than four units ...) is shaded by the
+textbook.
 """
 
 from __future__ import annotations
@@ -234,7 +234,7 @@ def _write_unit(state: State, unit: Unit, switches: np.ndarray, numbers: np.ndar
         or is_wide
         or not (mixes_bytes or (not linear and between != gl.GL_LINEAR and gl.GL_CLAMP_TO_BORDER not in wraps))
     ):
-        if not is_flat:
+        if not is_flat and within != sampler.mag_filter:  # filters of each fragment are those of 2-D textures
             return False
         switches[PATH] = IN_FLOAT
     else:

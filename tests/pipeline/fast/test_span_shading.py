@@ -139,13 +139,27 @@ def test_rectangles_are_sampled_in_blocks(depth_share, monkeypatch):
 
 
 @pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D, gl.GL_TEXTURE_CUBE_MAP])
-def test_textures_of_other_targets_are_sampled_in_blocks(target, monkeypatch):
+@pytest.mark.parametrize("of_floats", [False, True])
+def test_textures_of_other_targets_are_sampled_in_blocks(target, of_floats, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (target,))
-    if target == gl.GL_TEXTURE_1D:  # those with borders, and of depths, are shaded by the textbook
-        monkeypatch.setattr(fixed_function_pictures, "WRAPS", (gl.GL_REPEAT, gl.GL_CLAMP_TO_EDGE))
+    if of_floats:
+        monkeypatch.setattr(fixed_function_pictures, "FORMATS", fixed_function_pictures.FLOAT_FORMATS)
+        monkeypatch.setattr(fixed_function_pictures, "TEXELS", (-2.0, 3.0))
+    if target == gl.GL_TEXTURE_1D:  # those of depths are shaded by the textbook
         monkeypatch.setattr(fixed_function_pictures, "DEPTH_SHARE", 0)
     shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30), ordered=seed % 3 == 0) for seed in range(30)]
-    assert shadings.count({"fixed-function kernel"}) > len(shadings) / 4
+    assert shadings.count({"fixed-function kernel"}) > (0 if of_floats else len(shadings) / 4)
+
+
+@pytest.mark.parametrize("target", [gl.GL_TEXTURE_1D, gl.GL_TEXTURE_3D])
+@pytest.mark.parametrize("wrap", [gl.GL_CLAMP, gl.GL_CLAMP_TO_BORDER, gl.GL_MIRRORED_REPEAT])
+def test_lines_and_boxes_are_filtered_in_float(target, wrap, monkeypatch):
+    values = {"TARGETS": (target,), "WRAPS": (wrap,) * 2, "DEPTH_SHARE": 0, "MIN_FILTERS": (gl.GL_LINEAR,)}
+    values |= {"FORMATS": (*fixed_function_pictures.FORMATS, *fixed_function_pictures.FLOAT_FORMATS)}
+    for name, value in values.items():
+        monkeypatch.setattr(fixed_function_pictures, name, value)
+    shadings = [assert_same(seed, units=1 + seed % 2, size=(40, 30)) for seed in range(30)]
+    assert {"fixed-function kernel"} in shadings
 
 
 def test_depths_of_cube_maps_are_compared_by_the_textbook(monkeypatch):
