@@ -12,12 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import read_only
 from softshadow.pipeline.fast.drawn_surfaces import only_lessens_depths
 from softshadow.pipeline.fast.span_state import NEEDED, UNITS, StateNumbers, span_state
-from softshadow.pipeline.fast.span_tests import alpha_tests, span_tests
+from softshadow.pipeline.fast.span_tests import alpha_tests, span_tests, with_float_reference
 from softshadow.pipeline.fast.span_texels import texels_of
 from softshadow.pipeline.fast.special_fragments import NO_SPECIAL, discards_some, needed_places, special_numbers
 from softshadow.pipeline.raster.fragment_ops import ALWAYS, FragmentOps
@@ -80,6 +79,10 @@ def segment_state(
         return None
     writes_depth, tests_stencil = front.depth_write or back.depth_write, front.stencil_test or back.stencil_test
     what = bool(writes_depth), only_lessens_depths(front, back), bool(tests_stencil)
+    if front.alpha_test and target.colors[0].format.kind == "float":
+        if np.isnan(state.alpha.ref):
+            return None
+        front, back = with_float_reference(front, state.alpha.ref), with_float_reference(back, state.alpha.ref)
     if discards_some(special) and not front.alpha_test:  # they are left out with those that fail the alpha test
         front, back = (ops._replace(alpha_test=1, alpha_func=ALWAYS) for ops in (front, back))
     if special is not NO_SPECIAL:
@@ -95,13 +98,11 @@ def covered_state(
 ) -> StateNumbers | None:
     """Return the numbers of a draw's fragment state, or None where the textbook has to shade.
 
-    The kernels take the fixed function in float32 and one colour buffer, which no unit samples, of bytes or of floats;
-    with alpha test, of bytes. `units` are those in use, None where a program is no fixed function.
+    The kernels take the fixed function in float32 and one colour buffer, which no unit samples, of bytes or of floats.
+    `units` are those in use, None where a program is no fixed function.
     """
-    colors, tests_alpha = target.colors, state.alpha.enabled and state.alpha.func != gl.GL_ALWAYS
+    colors = target.colors
     if units is None or geometry.window.dtype != np.float32 or len(colors) != 1:
-        return None
-    if tests_alpha and colors[0].format.kind == "float":
         return None
     if any(image is attached.image for unit in units for image in unit.texture.images.values()
            for attached in target.attachments.values()):  # fmt: skip
