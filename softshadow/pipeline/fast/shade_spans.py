@@ -75,4 +75,4 @@ def shade_spans(
         if switches[STORED_AS] == BYTES:
             write_block(spans, n_spans, may_overlap, switches, is_masked, whole, pixels)
         else:
-            write_float_block(spans, n_spans, switches, is_masked, room, whole, pixels)
+            write_float_block(spans, n_spans, switches, numbers, is_masked, room, whole, pixels)

@@ -54,7 +54,7 @@ IS_CUBE, BY_RECIPROCAL, BY_PIXEL = 64, 65, 66  # how directions are projected, a
 IS_LINE = 67  # whether the texture is 1-D, so that t has no part in the level of detail
 IS_WIDE = 68  # whether a texel is four floats, not four bytes or a depth
 # in `numbers`
-FOG_COLOR, FOG_SLOPE, FOG_SHIFT, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 8, 16
+FOG_COLOR, FOG_SLOPE, FOG_SHIFT, BLEND_COLOR, UNIT_NUMBERS, NUMBERS_OF_UNIT = 0, 3, 4, 5, 9, 16
 BORDER, CONSTANT, STEP, LEAST, MOST, BIAS, SCALES = 0, 4, 8, 9, 10, 11, 12
 # how a unit is sampled: bytes as integers; one by one in float; the nearest depth compared; with an anisotropic filter
 IN_BYTES, IN_FLOAT, NEAREST_DEPTH, IN_ELLIPSES = range(4)
@@ -63,7 +63,8 @@ NO_LEVELS, BY_EXPONENT, CONSTANT_LEVEL, BY_LOGARITHM = range(4)
 KEEP, REPLACE, MULTIPLY, DECAL, ADD, BLEND, COMBINE = range(7)
 NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
 FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
-NO_BLENDING, BLENDING, LOGIC = range(3)
+# of floats, weighted sums are apart; SOURCE_TERMS and TARGET_TERMS say which have weights, or begin with the factors
+NO_BLENDING, BLENDING, LOGIC, WEIGHTED_SUM = range(4)
 BYTES, FLOATS, HALVES = range(3)  # half floats are stored as floats
 # whether units combine: none; each with its own texel; with those of the other one, too
 NO_COMBINING, IN_TURN, WITH_OTHER = range(3)
@@ -162,7 +163,8 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
         switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
         if color.kind == "float":
             switches[STORED_AS] = HALVES if color.encoding == "half" else FLOATS
-            return StateNumbers(switches, numbers) if _write_float_blending(state, color, switches) else None
+            _write_float_blending(state, color, switches, numbers)
+            return StateNumbers(switches, numbers)
         if not has_four_bytes(color):
             return None
         _write_blending(state, blend_ops(state.blend, color), switches)
@@ -324,16 +326,20 @@ def _write_blending(state: State, ops: BlendOps, switches: np.ndarray) -> None:
         switches[SATURATES] |= (name == gl.GL_SRC_ALPHA_SATURATE) << bit
 
 
-def _write_float_blending(state: State, color: Format, switches: np.ndarray) -> bool:
-    """Write by what floats are weighted where they are blended; return False if more happens. They have no logic."""
+def _write_float_blending(state: State, color: Format, switches: np.ndarray, numbers: np.ndarray) -> None:
+    """Write how floats are blended, which have no logic operations."""
     if not state.blend.enabled or state.blend.logic_enabled:
-        return True
+        return
     ops = blend_ops(state.blend, color)
-    if not is_weighted_sum(ops):
-        return False
+    if is_weighted_sum(ops):
+        switches[BLENDS] = WEIGHTED_SUM
+        switches[SOURCE_TERMS], switches[TARGET_TERMS] = ops.src_rgb != gl.GL_ONE, ops.dst_rgb != gl.GL_ONE
+        return
     switches[BLENDS] = BLENDING
-    switches[SOURCE_TERMS], switches[TARGET_TERMS] = ops.src_rgb != gl.GL_ONE, ops.dst_rgb != gl.GL_ONE
-    return True
+    switches[EQUATION_RGB], switches[EQUATION_ALPHA] = ops.equation_rgb, ops.equation_alpha
+    switches[SOURCE_TERMS : SOURCE_TERMS + 3] = ops.src_rgb, ops.src_alpha, ops.single_channel
+    switches[TARGET_TERMS : TARGET_TERMS + 3] = ops.dst_rgb, ops.dst_alpha, ops.same_factor
+    numbers[BLEND_COLOR : BLEND_COLOR + 4] = ops.red, ops.green, ops.blue, ops.alpha
 
 
 PLAIN = {

@@ -228,19 +228,17 @@ def weighted_sum(rng, state):
     return replace(state, blend=Blend(True, *(source, target) * 2, *add, (0.0,) * 4, has_logic, gl.GL_XOR))
 
 
-@pytest.mark.parametrize("format", [gl.GL_RGBA32F, gl.GL_RGB16F, gl.GL_RG32F, gl.GL_RGBA16F])
+@pytest.mark.parametrize("format", [gl.GL_RGBA32F, gl.GL_RGB16F, gl.GL_RG32F, gl.GL_R16F])
 @pytest.mark.parametrize("blending", ["none", "weighted sum", "any"])
 def test_colours_are_written_into_floats(format, blending, monkeypatch):
     monkeypatch.setattr(fixed_function_pictures, "TARGETS", (gl.GL_TEXTURE_2D,))
     if blending == "weighted sum":
         monkeypatch.setattr(fixed_function_pictures, "random_blending", weighted_sum)
-    shadings = set()
     for seed in range(30):
         ways = {"ordered": blending != "none", "special": seed % 5 == 2, "white": seed % 7 == 3}
         ways["tested"] = seed % 4 == 1
-        shadings |= assert_same(seed, stored_as=format, units=seed % 3, size=(40, 30), **ways)
-    assert "fixed-function kernel" in shadings
-    assert ("program" in shadings) == (blending == "any")
+        shadings = assert_same(seed, stored_as=format, units=seed % 3, size=(40, 30), **ways)
+        assert shadings <= {"fixed-function kernel", ""}
 
 
 def test_uncovered_states_are_shaded_by_the_textbook():
