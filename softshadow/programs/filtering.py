@@ -17,7 +17,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.image import Format, Image
 from softshadow.jit import allocating_kernel, inlined, kernel
-from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT, sampled_depth
+from softshadow.pixels import LARGEST_SAMPLED, LARGEST_UINT
 from softshadow.programs.wrapping import (
     FIXED_POINT_WRAPS,
     ONE,
@@ -144,14 +144,6 @@ def unit_of(format: Format, real: np.dtype) -> Any:
     if format.largest == LARGEST_UINT:
         return real.type(STEP_OF_23_BITS)
     return real.type(ONE / np.float32(format.largest) if format.largest else ONE)
-
-
-def texels_in_float(cells: np.ndarray, format: Format, real: np.dtype) -> np.ndarray:
-    """Return the values of cells of a format."""
-    if format.largest == LARGEST_UINT:
-        return sampled_depth(cells, format).astype(real)
-    values: np.ndarray = cells.astype(real) * unit_of(format, real)
-    return values
 
 
 @kernel

@@ -170,10 +170,8 @@ def average_fours(texels, out):
         for x in range(np.uint64(out.shape[1])):
             left = x + x
             right = left + np.uint64(1)
-            below, above = (
-                mean_of(texels[lower, left], texels[lower, right]),
-                mean_of(texels[upper, left], texels[upper, right]),
-            )
+            below = mean_of(texels[lower, left], texels[lower, right])
+            above = mean_of(texels[upper, left], texels[upper, right])
             out[y, x] = mean_of(below, above)
 
 

@@ -21,7 +21,7 @@ from softshadow.pipeline.fast.fragment_block import (
 )
 from softshadow.pipeline.fast.span_colors import ALPHA_ROW, shade_block
 from softshadow.pipeline.fast.span_float_writes import write_float_block
-from softshadow.pipeline.fast.span_state import BYTES, STORED_AS
+from softshadow.pipeline.fast.span_state import AS_BYTES, STORED_AS
 from softshadow.pipeline.fast.span_tests import (
     IS_TESTED,
     test_alpha_of_block,
@@ -72,7 +72,7 @@ def shade_spans(
                     n_spans, own_triangles, depth_planes, faces_front, room, whole,
                 )  # fmt: skip
         is_masked = alpha_test[IS_TESTED] != 0
-        if switches[STORED_AS] == BYTES:
+        if switches[STORED_AS] == AS_BYTES:
             write_block(spans, n_spans, may_overlap, switches, is_masked, whole, pixels)
         else:
             write_float_block(spans, n_spans, switches, numbers, is_masked, room, whole, pixels)

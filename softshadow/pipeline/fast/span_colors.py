@@ -27,8 +27,8 @@ from softshadow.pipeline.fast.span_combine import combine_block, keep_primary, s
 from softshadow.pipeline.fast.span_state import (
     ADD,
     ALPHA_OPERATION,
+    AS_BYTES,
     BLEND,
-    BYTES,
     CHANNELS,
     COMBINE,
     COMBINES,
@@ -77,7 +77,7 @@ def shade_block(planes, spans, n_spans, count, flat, switches, numbers, textures
     planes (P, 3, k + 1) are those of `shade.interpolate.attribute_planes`, `spans` and `count` say which fragments;
     `own_textures` (UNITS,) which of the textures the units have.
     """
-    in_bytes = switches[STORED_AS] == BYTES
+    in_bytes = switches[STORED_AS] == AS_BYTES
     if in_bytes and switches[NEEDED] == FOUR_COLUMNS:  # nothing but the colours
         if flat[0] and flat[1] and flat[2] and flat[3]:
             write_constant_colors(planes, spans, n_spans, room, whole)

@@ -116,7 +116,8 @@ def average_ellipse(level, ellipse, n, switches, numbers, unit, number, texels, 
     first_step, first_q, twice = (TWO * left + ONE) * a, (left * left) * a, a * TWO
     wrap_s, wrap_t, is_wide = switches[unit + WRAP_S], switches[unit + WRAP_T], switches[unit + IS_WIDE] != 0
     sums = (ZERO, ZERO, ZERO, ZERO, ZERO)
-    is_near = columns < SIZE and rows < SIZE and abs(u0) < FAR and abs(v0) < FAR
+    # no columns or rows, if the end of the box is beyond 32 bits
+    is_near = 0 <= columns < SIZE and 0 <= rows < SIZE and abs(u0) < FAR and abs(v0) < FAR
     if is_near and abs(b) + a + c < STEEP:  # no if one of them is not a number
         find_texels(np.uint64(0), u0, columns + 1, width, wrap_s, room, whole)
         find_texels(T_AXIS, v0, rows + 1, height, wrap_t, room, whole)

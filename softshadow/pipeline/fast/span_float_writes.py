@@ -10,12 +10,12 @@ from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
 from softshadow.pipeline.fast.fragment_block import MASK, NEXT, ROW, SPAN_LEFT, SPAN_ROW, SPAN_START
 from softshadow.pipeline.fast.span_state import (
+    AS_HALVES,
     BLEND_COLOR,
     BLENDING,
     BLENDS,
     EQUATION_ALPHA,
     EQUATION_RGB,
-    HALVES,
     SOURCE_TERMS,
     STORED_AS,
     TARGET_TERMS,
@@ -52,7 +52,7 @@ def write_float_block(spans, n_spans, switches, numbers, is_masked, room, whole,
 @kernel
 def write_span(start, length, switches, is_masked, room, whole, target):
     """Write the colours of fragments from `start` on as they are, or as weighted sums."""
-    is_sum, is_half = switches[BLENDS] == WEIGHTED_SUM, switches[STORED_AS] == HALVES
+    is_sum, is_half = switches[BLENDS] == WEIGHTED_SUM, switches[STORED_AS] == AS_HALVES
     weighs_source, weighs_target = switches[SOURCE_TERMS] != 0, switches[TARGET_TERMS] != 0
     for c in range(4):
         if not has_channel(switches, c):
@@ -83,7 +83,7 @@ def blend_span(start, length, switches, numbers, is_masked, room, whole, target)
         at, pixel = start + n, target[CHANNELS * n : CHANNELS * n + CHANNELS]
         source = room[at], room[ROW + at], room[ROW + ROW + at], room[ALPHA_ROW + at]
         blend_float_fragment(ops, source, mask, pixel)
-        if switches[STORED_AS] == HALVES:
+        if switches[STORED_AS] == AS_HALVES:
             for c in range(4):
                 pixel[c] = truncated_to_half(pixel[c])
 

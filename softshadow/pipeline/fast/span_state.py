@@ -65,7 +65,7 @@ NO_FOG, LINEAR_FOG, EXP_FOG, EXP2_FOG = range(4)
 FOGS = {gl.GL_LINEAR: LINEAR_FOG, gl.GL_EXP: EXP_FOG, gl.GL_EXP2: EXP2_FOG}
 # of floats, weighted sums are apart; SOURCE_TERMS and TARGET_TERMS say which have weights, or begin with the factors
 NO_BLENDING, BLENDING, LOGIC, WEIGHTED_SUM = range(4)
-BYTES, FLOATS, HALVES = range(3)  # half floats are stored as floats
+AS_BYTES, AS_FLOATS, AS_HALVES = range(3)  # half floats are floats with fewer bits
 # whether units combine: none; each with its own texel; with those of the other one, too
 NO_COMBINING, IN_TURN, WITH_OTHER = range(3)
 # results of a comparison as bits: less, equal, greater, unordered
@@ -162,7 +162,7 @@ def _state_numbers(state: State, units: list[Unit], color: Format | None) -> Sta
         mask = np.array(state.color.mask) & np.array(color.written)
         switches[WRITABLE] = np.where(mask, np.uint8(255), np.uint8(0)).view(np.int32)[0]
         if color.kind == "float":
-            switches[STORED_AS] = HALVES if color.encoding == "half" else FLOATS
+            switches[STORED_AS] = AS_HALVES if color.encoding == "half" else AS_FLOATS
             _write_float_blending(state, color, switches, numbers)
             return StateNumbers(switches, numbers)
         if not has_four_bytes(color):

@@ -59,7 +59,7 @@ NO_OPS = FragmentOps(0, ALWAYS, 0, ALWAYS, KEEP, KEEP, KEEP, 0, 0, ALWAYS, 0, 0,
 # depth tests that a fragment, once it has failed, fails for ever: what passes moves the stored depth away from it
 LASTING = (NEVER, LESS, EQUAL, LEQUAL, GREATER, GEQUAL)
 IS_TESTED, IF_LESS, IF_EQUAL, IF_GREATER, ALPHA_REF = range(5)  # of `AlphaTests.alpha`
-AS_FLOATS = 2  # in IS_TESTED: alphas are compared unrounded, and ALPHA_REF has the bits of a float
+UNROUNDED = 2  # in IS_TESTED: alphas are compared as floats, and ALPHA_REF has the bits of one
 
 
 class SpanTests(NamedTuple):
@@ -102,7 +102,7 @@ def span_tests(front: FragmentOps, back: FragmentOps) -> SpanTests:
 
 def with_float_reference(ops: FragmentOps, reference: float) -> FragmentOps:
     """Return operations whose alpha test compares floats, as for buffers of floats (`blend.compared_alpha`)."""
-    return ops._replace(alpha_test=AS_FLOATS, alpha_ref=int(np.float32(reference).view(np.int32)))
+    return ops._replace(alpha_test=UNROUNDED, alpha_ref=int(np.float32(reference).view(np.int32)))
 
 
 @lru_cache(maxsize=256)
@@ -204,7 +204,7 @@ def test_alpha_of_block(alpha_test, n_fragments, alpha, room, whole):
     """Test the alphas of a block, which are in the row `alpha`; MASK receives which fragments pass."""
     ref = alpha_test[ALPHA_REF]
     if_less, if_equal, if_greater = alpha_test[IF_LESS], alpha_test[IF_EQUAL], alpha_test[IF_GREATER]
-    if alpha_test[IS_TESTED] == AS_FLOATS:
+    if alpha_test[IS_TESTED] == UNROUNDED:
         reference = np.int32(ref).view(np.float32)
         for i in range(np.uint64(n_fragments)):
             value = room[alpha + i]

@@ -241,6 +241,31 @@ def test_colours_are_written_into_floats(format, blending, monkeypatch):
         assert shadings <= {"fixed-function kernel", ""}
 
 
+def test_ellipses_may_be_infinite(anisotropic):
+    def picture():
+        context = gl.create_context(1, 1)
+        gl.glBindTexture(gl.GL_TEXTURE_2D, gl.glGenTextures(1))
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_LINEAR)
+        gl.glTexParameterf(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MAX_ANISOTROPY_EXT, 2.0)
+        texels = [[50, 60, 70, 80]] * 16
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, 4, 4, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+        gl.glEnable(gl.GL_TEXTURE_2D)
+        middle, half_step = 2.0**28, 2.0**27  # steps with whose squares the axes overflow
+        gl.glBegin(gl.GL_QUADS)
+        for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+            gl.glTexCoord2f(middle + x * half_step, 0.5)
+            gl.glVertex2f(x, y)
+        gl.glEnd()
+        gl.glFinish()
+        return context
+
+    with explain_paths() as paths:
+        window = picture()
+    assert [path.shading for path in paths] == ["fixed-function kernel"]
+    with use_short_cuts(False):
+        assert same_window(window, picture())
+
+
 def test_uncovered_states_are_shaded_by_the_textbook():
     with explain_paths() as paths:
         for seed in range(12):
