@@ -119,8 +119,9 @@ def average_ellipse(level, ellipse, n, switches, numbers, unit, number, texels, 
     # no columns or rows, if the end of the box is beyond 32 bits
     is_near = 0 <= columns < SIZE and 0 <= rows < SIZE and abs(u0) < FAR and abs(v0) < FAR
     if is_near and abs(b) + a + c < STEEP:  # no if one of them is not a number
-        find_texels(np.uint64(0), u0, columns + 1, width, wrap_s, room, whole)
-        find_texels(T_AXIS, v0, rows + 1, height, wrap_t, room, whole)
+        for axis in range(np.uint64(2)):
+            first, count, size = (v0, rows + 1, height) if axis else (u0, columns + 1, width)
+            find_texels(axis * T_AXIS, first, count, size, wrap_t if axis else wrap_s, room, whole)
         for j in range(rows + 1):
             up = np.float32(v0 + j) - v
             step, q = up * b + first_step, (c * up + b * left) * up + first_q

@@ -8,7 +8,7 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
-from softshadow.pipeline.fast.fragment_block import MASK, NEXT, ROW, SPAN_LEFT, SPAN_ROW, SPAN_START
+from softshadow.pipeline.fast.fragment_block import MASK, NEXT, ROW, SPAN_LEFT, SPAN_ROW, SPAN_START, WEIGHT
 from softshadow.pipeline.fast.span_state import (
     AS_HALVES,
     BLEND_COLOR,
@@ -37,35 +37,54 @@ def pixels_of(image: Image) -> np.ndarray:
 
 @kernel
 def write_float_block(spans, n_spans, switches, numbers, is_masked, room, whole, pixels):
-    """Write the first four rows of `room` into `pixels`, blended span by span; if `is_masked`, where MASK is set."""
+    """Write the first four rows of `room` into `pixels`, blended span by span; if `is_masked`, where MASK is set.
+
+    The rows are overwritten.
+    """
     values = pixels.view(np.float32)
     for s in range(np.uint64(n_spans)):
         start, length = np.uint64(spans[SPAN_START, s]), np.uint64(spans[SPAN_START, s + NEXT] - spans[SPAN_START, s])
-        target = values[np.uint64(spans[SPAN_ROW, s])]
-        first = CHANNELS * np.uint64(spans[SPAN_LEFT, s])
+        row, first = np.uint64(spans[SPAN_ROW, s]), CHANNELS * np.uint64(spans[SPAN_LEFT, s])
+        target = values[row, first : first + CHANNELS * length]
         if switches[BLENDS] == BLENDING:
-            blend_span(start, length, switches, numbers, is_masked, room, whole, target[first:])
-        else:
-            write_span(start, length, switches, is_masked, room, whole, target[first:])
+            blend_span(start, length, switches, numbers, is_masked, room, whole, target)
+            continue
+        if switches[BLENDS] == WEIGHTED_SUM:
+            add_target(start, length, switches[SOURCE_TERMS], switches[TARGET_TERMS], room, target)
+        for c in range(4):
+            if has_channel(switches, c):
+                is_half = switches[STORED_AS] == AS_HALVES
+                write_channel(start, length, np.uint64(c), is_half, is_masked, room, whole, target)
 
 
 @kernel
-def write_span(start, length, switches, is_masked, room, whole, target):
-    """Write the colours of fragments from `start` on as they are, or as weighted sums."""
-    is_sum, is_half = switches[BLENDS] == WEIGHTED_SUM, switches[STORED_AS] == AS_HALVES
-    weighs_source, weighs_target = switches[SOURCE_TERMS] != 0, switches[TARGET_TERMS] != 0
-    for c in range(4):
-        if not has_channel(switches, c):
-            continue
-        source, channel = np.uint64(c) * ROW + start, np.uint64(c)
+def add_target(start, length, weighs_source, weighs_target, room, target):
+    """Replace the colours of fragments from `start` on by weighted sums with the colours in `target`."""
+    for n in range(start, start + length):
+        room[WEIGHT + n] = room[ALPHA_ROW + n]
+    for c in range(CHANNELS):
+        row = c * ROW + start
+        if weighs_source:
+            for n in range(length):
+                room[row + n] *= room[WEIGHT + start + n]
+        if weighs_target:
+            for n in range(length):
+                room[row + n] += target[CHANNELS * n + c] * (ONE - room[WEIGHT + start + n])
+        else:
+            for n in range(length):
+                room[row + n] += target[CHANNELS * n + c]
+
+
+@kernel
+def write_channel(start, length, c, is_half, is_masked, room, whole, target):
+    """Write a channel of the fragments from `start` on."""
+    row = c * ROW + start
+    if is_half:
         for n in range(length):
-            value, before = room[source + n], target[CHANNELS * n + channel]
-            if is_sum:
-                alpha = room[ALPHA_ROW + start + n]
-                value *= alpha if weighs_source else ONE
-                value += before * (ONE - alpha if weighs_target else ONE)
-            value = truncated_to_half(value) if is_half else value
-            target[CHANNELS * n + channel] = value if not is_masked or whole[MASK + start + n] else before
+            room[row + n] = truncated_to_half(room[row + n])
+    for n in range(length):
+        is_written = not is_masked or whole[MASK + start + n] != 0
+        target[CHANNELS * n + c] = room[row + n] if is_written else target[CHANNELS * n + c]
 
 
 @kernel
