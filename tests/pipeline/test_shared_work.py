@@ -31,7 +31,7 @@ SHARING = [
 ]  # fmt: skip
 
 RUNS = [
-    ("planar-accumulated", {"samples": 2}, {"shading"}),
+    ("planar-accumulated", {"samples": 2}, {"forward"}),
     ("volume-zfail", {}, {"stencil_tiles", "fill", "triangle_setup"}),
     ("volume-wedges", {}, {"fill", "interpolate"}),
     ("map-pcf", {}, {"fill", "shading", "visible_spans"}),

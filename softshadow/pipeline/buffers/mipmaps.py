@@ -212,7 +212,7 @@ def mix_in_8_bits(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarra
 
 def mix_in_float(a: np.ndarray, b: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Return the mixtures of floats."""
-    mixed: np.ndarray = mix(weight, a, b)
+    mixed: np.ndarray = weight * (b - a) + a
     return mixed
 
 
