@@ -49,8 +49,8 @@ from softshadow.pipeline.fast.span_state import (
 )
 from softshadow.pipeline.fast.span_steps import coordinates_at
 from softshadow.programs.anisotropy import LAST_WEIGHT, TWO, WEIGHTS, box_of, ellipse_of, weight_at
+from softshadow.programs.box_filtering import nearest_on_axis
 from softshadow.programs.filtering import UNORM8_STEP
-from softshadow.programs.wrapping import nearest_texel, nearest_texel_at
 
 OUTSIDE = np.float32(LAST_WEIGHT + 1)
 WEIGHTS_IN_BOX = np.append(WEIGHTS, ZERO)  # that of all texels outside the ellipse is the last one
@@ -134,7 +134,7 @@ def average_ellipse(level, ellipse, n, switches, numbers, unit, number, texels, 
         for j in range(rows + 1):
             up = np.float32(v0 + j) - v
             step, q = up * b + first_step, (c * up + b * left) * up + first_q
-            begin = offset + pitch * np.int64(texel_on_axis(v0 + j, height, wrap_t))
+            begin = offset + pitch * texel_on_axis(v0 + j, height, wrap_t)
             sums = add_any_row(u0, columns, begin, q, step, twice, width, wrap_s, is_wide, texels, sums)
     total, red, green, blue, alpha = sums
     if total != ZERO:
@@ -158,8 +158,7 @@ def find_texels(axis, first, count, size, wrap, room, whole):
 @kernel
 def texel_on_axis(i, size, wrap):
     """Return where texel `i` of an axis is found."""
-    coordinate = np.float32(i) / np.float32(size)
-    return nearest_texel_at(coordinate, size, -wrap) if wrap < 0 else nearest_texel(coordinate, size, wrap)
+    return nearest_on_axis(np.float32(i) / np.float32(size), size, abs(wrap), wrap > 0)
 
 
 @copied_kernel
@@ -189,7 +188,7 @@ def add_any_row(u0, columns, begin, q, step, twice, width, wrap, is_wide, texels
     for i in range(u0, u0 + columns + 1):
         weight = weight_at(WEIGHTS, q)
         if weight != ZERO:
-            place = begin + np.int64(texel_on_axis(i, width, wrap))
+            place = begin + texel_on_axis(i, width, wrap)
             if is_wide:
                 sums = with_floats(sums, weight, texels.view(np.float32), np.uint64(4 * place))
             else:

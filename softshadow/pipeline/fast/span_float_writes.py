@@ -8,7 +8,7 @@ import numpy as np
 from softshadow.image import Image
 from softshadow.jit import kernel
 from softshadow.pipeline.constants import ONE
-from softshadow.pipeline.fast.fragment_block import MASK, NEXT, ROW, SPAN_LEFT, SPAN_ROW, SPAN_START, WEIGHT
+from softshadow.pipeline.fast.fragment_block import ALPHA, MASK, NEXT, ROW, SPAN_LEFT, SPAN_ROW, SPAN_START, WEIGHT
 from softshadow.pipeline.fast.span_state import (
     AS_HALVES,
     BLEND_COLOR,
@@ -25,7 +25,7 @@ from softshadow.pipeline.fast.span_state import (
 from softshadow.pipeline.shade.blend import BlendOps, blend_float_fragment
 from softshadow.pipeline.shade.float_writes import truncated_to_half
 
-CHANNELS, ALPHA_ROW = np.uint64(4), np.uint64(3) * ROW
+CHANNELS = np.uint64(4)
 
 
 def pixels_of(image: Image) -> np.ndarray:
@@ -61,7 +61,7 @@ def write_float_block(spans, n_spans, switches, numbers, is_masked, room, whole,
 def add_target(start, length, weighs_source, weighs_target, room, target):
     """Replace the colours of fragments from `start` on by weighted sums with the colours in `target`."""
     for n in range(start, start + length):
-        room[WEIGHT + n] = room[ALPHA_ROW + n]
+        room[WEIGHT + n] = room[ALPHA + n]
     for c in range(CHANNELS):
         row = c * ROW + start
         if weighs_source:
@@ -100,7 +100,7 @@ def blend_span(start, length, switches, numbers, is_masked, room, whole, target)
         if is_masked and not whole[MASK + start + n]:
             continue
         at, pixel = start + n, target[CHANNELS * n : CHANNELS * n + CHANNELS]
-        source = room[at], room[ROW + at], room[ROW + ROW + at], room[ALPHA_ROW + at]
+        source = room[at], room[ROW + at], room[ROW + ROW + at], room[ALPHA + at]
         blend_float_fragment(ops, source, mask, pixel)
         if switches[STORED_AS] == AS_HALVES:
             for c in range(4):
