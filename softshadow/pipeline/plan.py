@@ -26,7 +26,7 @@ from softshadow.pipeline.shade.visible_spans import VisibleSpans
 from softshadow.state import State
 
 try:
-    from softshadow.pipeline.fast.batch.admission import can_begin_run
+    from softshadow.pipeline.fast.batch.admission import can_begin_run, is_long
     from softshadow.pipeline.fast.batch.run import Run
     from softshadow.pipeline.fast.drawn_surfaces import (
         Watch,
@@ -46,7 +46,6 @@ except ModuleNotFoundError:  # the folder can be deleted: the textbook draws eve
 
 MOST_DRAWS = 4096  # of a run
 MOST_VERTICES = 1 << 16  # of a run of several draws: more in one table gain nothing
-LONG_DRAW = 1 << 14  # vertices from which a draw without colours goes in chunks (fast.depth_only)
 
 Policy = bool | Literal["always"]
 WithoutOverlaps = Callable[[Callable[[np.ndarray], None], Region, int], np.ndarray | None]
@@ -190,7 +189,7 @@ def begin_run(command: Draw, target: Framebuffer, storage: Storage) -> Run | Non
     if not can_begin_run(command, target):
         return None
     colorless = writes_no_colors(command, target) and not tests_alpha(command.state)
-    if colorless and len(command.vertices.position) >= LONG_DRAW:
+    if colorless and is_long(command):
         return None
     return Run(command, storage, not colorless)
 

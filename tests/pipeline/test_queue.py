@@ -10,7 +10,7 @@ from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
 from softshadow.pipeline import queue, use_short_cuts
-from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING
+from softshadow.pipeline.fast.batch.admission import LONG_DRAW, WORTH_COMPARING
 from softshadow.pipeline.fast.batch.segments import Part
 
 
@@ -256,6 +256,21 @@ def test_large_draws_of_one_kind_are_set_up_together(batches):
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, WORTH_COMPARING)
     gl.glFinish()
     assert batches == [5]
+
+
+@pytest.mark.parametrize("between", [lambda: None, lambda: gl.glLightf(gl.GL_LIGHT0, gl.GL_SPOT_CUTOFF, 40)])
+def test_a_long_draw_without_colors_goes_in_chunks_also_behind_a_short_one(batches, between):
+    """Of a shadow map, for example: the ground comes before the mesh."""
+    gl.create_context(SIZE, SIZE)
+    gl.glEnable(gl.GL_DEPTH_TEST)
+    gl.glColorMask(False, False, False, False)
+    gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
+    gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.zeros((LONG_DRAW, 3), np.float32))
+    for n_vertices in (3, LONG_DRAW, 3, LONG_DRAW - 1):
+        gl.glDrawArrays(gl.GL_TRIANGLE_STRIP, 0, n_vertices)
+        between()
+    gl.glFinish()
+    assert batches == [1, 2]
 
 
 def test_long_lines_under_other_states_wait_together(batches):

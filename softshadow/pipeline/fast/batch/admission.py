@@ -24,6 +24,7 @@ from softshadow.state import Points, Polygon, State
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
+LONG_DRAW = 1 << 14  # vertices from which a draw without colours goes in chunks (fast.depth_only)
 LEAST_HEIGHT = 1 / 8  # half pixels that no rounding makes of nothing: steps of window y are 1/256 pixel or less
 
 
@@ -71,6 +72,11 @@ def least_compared(command: Draw) -> int:
     if width_of(command.mode) < WIDTH_OF_POLYGONS:
         return sys.maxsize
     return STRIPS_WORTH_COMPARING if command.pairs_mode else WORTH_COMPARING
+
+
+def is_long(command: Draw) -> bool:
+    """Return whether a draw, if it has no colours, is better set up and filled in chunks than together with others."""
+    return len(command.vertices.position) >= LONG_DRAW
 
 
 def can_run(command: Draw) -> bool:

@@ -21,6 +21,7 @@ from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.fast.batch.admission import (
     can_run,
     is_filled,
+    is_long,
     is_outlined_alone,
     leaves_out_triangles,
 )
@@ -197,11 +198,14 @@ class Run:
 
     def _is_alike(self, command: Draw) -> bool:
         """Return whether a draw continues the run as far as the groups of its state do not decide it."""
-        if width_of(command.mode) != width_of(self.command.mode):
+        if width_of(command.mode) != width_of(self.command.mode) or self._goes_in_chunks(command):
             return False
         if structure_of(command.state.lighting) != structure_of(self.state.lighting):
             return False
         return self._arrays_of(command) == self.arrays and can_run(command)
+
+    def _goes_in_chunks(self, command: Draw) -> bool:
+        return not self.writes_color and is_long(command)
 
     def continues(self, command: Draw, taken: Draw) -> bool:
         """Return whether a draw differs from one of the run only in what every run allows, as is seen at once."""
@@ -211,6 +215,8 @@ class Run:
         """Return what `continues` returns of a draw whose state has the groups and `structure_of` of the other's."""
         mode = command.mode
         if mode != taken.mode or command.modelview_kind & UNKNOWN or command.joined_positions is not None:
+            return False
+        if self._goes_in_chunks(command):
             return False
         has_same_matrices = command.texture_matrices is taken.texture_matrices
         if not has_same_matrices and self._identities_of(command) != self.arrays.identities:
