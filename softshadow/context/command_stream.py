@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
-from softshadow.context.late_draws import LateDraw, LateDraws, MovedDraw
+from softshadow.context.late_draws import LateCommands, LateDraw, LateDraws, MovedDraw
 from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
@@ -86,32 +87,37 @@ class CommandStream:
         """Carry out and record draws that differ from the first one in vertices and indices only."""
         if self.late.draws:
             self.draw_late()
-        self._carry_out_several(commands, self._queue.add_alike)
+        self._carry_out_several(commands, lambda n: self._queue.add_alike(commands[n:]))
 
-    def carry_out_moved(self, commands: Sequence[Draw], memory: Sequence[np.ndarray] | None = None) -> None:
+    def carry_out_moved(self, commands: Sequence[Draw]) -> None:
         """Carry out and record draws that differ from the first one in vertices, indices and modelview matrix only.
 
-        No draw is late. For `memory` see `Frame.extend`.
+        No draw is late.
         """
-        self._carry_out_several(commands, self._queue.add_like, memory)
+        self._carry_out_several(commands, lambda n: self._queue.add_like(commands[n:]))
 
     def _carry_out_several(
         self,
         commands: Sequence[Draw],
-        add: Callable[[Sequence[Draw]], int],
+        add: Callable[[int], int],
         memory: Sequence[np.ndarray] | None = None,
     ) -> None:
-        """Carry out and record draws; `add` lets some of them wait."""
+        """Carry out and record draws; `add` lets some wait, from one on. For `memory` see `Frame.extend`."""
         n_done = 0
-        if self.text is None and self.gate is None and not commands[0].state.lines.stippled:
-            n_done = add(commands)
-            if not n_done:
-                execute(commands[0], self.objects)
-                n_done = 1
-            if self.frame.extend(commands[:n_done], memory):
+        while n_done < len(commands):
+            first = commands[n_done]
+            if self.text is not None or self.gate is not None or first.state.lines.stippled:
+                self.carry_out(first)
+                n_done += 1
+                continue
+            n_added = add(n_done)
+            if not n_added:
+                execute(first, self.objects)
+                n_added = 1
+            done = commands[n_done : n_done + n_added]
+            n_done += n_added
+            if self.frame.extend(done, memory):
                 self.frame.shorten(self.objects_after_all())
-        for command in commands[n_done:]:
-            self.carry_out(command)
 
     def carry_out_kept(self, commands: Sequence[Command]) -> None:
         """Carry out and record commands that the gate has kept back."""
@@ -137,8 +143,11 @@ class CommandStream:
 
     def draw_late(self) -> None:
         """Carry out and record the draws that are late."""
-        for draws, memory in self.late.take():
-            self.carry_out_moved(draws, memory)
+        for late in self.late.take():
+            self._carry_out_several(late.draws, partial(self._add_late, late), late.memory)
+
+    def _add_late(self, late: LateCommands, first: int) -> int:
+        return self._queue.add_in_turns(late.draws[first:], late.keys[first:])
 
     def carry_out_waiting(self) -> None:
         """Carry out the draws that wait in the queue."""

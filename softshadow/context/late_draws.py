@@ -92,9 +92,42 @@ def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
     return [separated(each, draw.counts) if draw.counts else each for each, (draw, _) in zip(made, alike, strict=True)]
 
 
-def _likeness(draw: LateDraw | MovedDraw) -> tuple[int, tuple[str, ...]]:
-    """Return what draws in a row have in common that differ in vertices, indices and modelview matrix only."""
-    return (id(draw.form.like), draw.form.columns) if isinstance(draw, LateDraw) else (id(draw.like), ())
+class LateCommands(NamedTuple):
+    """Late draws, of which those with equal `keys` differ in vertices and modelview matrix only.
+
+    They have arrays of the same attributes. `memory`: that of these arrays, which all pairs share; None where each draw
+    has its own.
+    """
+
+    draws: list[Draw]
+    keys: Sequence[Hashable]
+    memory: list[np.ndarray] | None
+
+
+def _kind_of(draw: LateDraw | MovedDraw) -> tuple[type, bool]:
+    """Return by what draws are taken together: stippled ones are not, as a pattern goes on from one to the next."""
+    like = draw.form.like if isinstance(draw, LateDraw) else draw.like
+    return type(draw), like.state.lines.stippled
+
+
+def _with_arrays(draws: Sequence[MovedDraw]) -> LateCommands:
+    keys = [id(draw.like) for draw in draws]
+    return LateCommands(_in_turns(keys, draws, _moved), keys, None)
+
+
+def _moved(alike: Sequence[MovedDraw]) -> list[Draw]:
+    return moved_draws(alike[0].like, [draw[1:] for draw in alike])
+
+
+def _in_turns(keys: Sequence[Hashable], draws: Iterable[Any], make: Callable[[list[Any]], list[Draw]]) -> list[Draw]:
+    """Return draws in their order; those with equal keys are made together."""
+    alike: dict[Hashable, list[Any]] = {}
+    for key, draw in zip(keys, draws, strict=True):
+        alike.setdefault(key, []).append(draw)
+    if len(alike) == 1:
+        return make(*alike.values())
+    made = {key: iter(make(same)) for key, same in alike.items()}
+    return [next(made[key]) for key in keys]
 
 
 class LateDraws:
@@ -131,21 +164,18 @@ class LateDraws:
         self._n_numbers += len(draw.primitive.positions) if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS
 
-    def take(self) -> Iterator[tuple[list[Draw], list[np.ndarray] | None]]:
-        """Yield the draws in their order, and forget them; those of a list differ in vertices and matrix only.
-
-        They have arrays of the same attributes. And the memory of these arrays, which all pairs share; None where each
-        draw has its own.
-        """
+    def take(self) -> Iterator[LateCommands]:
+        """Yield the draws in their order, and forget them."""
         draws, self.draws, self._n_numbers = self.draws, [], 0
+        for (kind, _), same in groupby(draws, _kind_of):
+            of_kind: list[Any] = list(same)
+            yield self._with_numbers(of_kind) if kind is LateDraw else _with_arrays(of_kind)
+
+    def _with_numbers(self, draws: Sequence[LateDraw]) -> LateCommands:
         memory: list[np.ndarray] = []
-        vertices = self._vertices_of([draw for draw in draws if isinstance(draw, LateDraw)], memory)
-        for _, same in groupby(draws, _likeness):
-            alike: list[Any] = list(same)
-            if isinstance(alike[0], LateDraw):
-                yield _made([(draw, next(vertices)) for draw in alike]), memory
-            else:
-                yield moved_draws(alike[0].like, [draw[1:] for draw in alike]), None
+        vertices = self._vertices_of(draws, memory)
+        keys = [(id(draw.form.like), draw.form.columns) for draw in draws]
+        return LateCommands(_in_turns(keys, zip(draws, vertices, strict=True), _made), keys, memory)
 
     def _vertices_of(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterator[Vertices]:
         """Return the vertices of each of the draws; add their memory."""

@@ -9,9 +9,9 @@ of the window for each, one with many samples of a light accumulates the picture
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import groupby, takewhile
 
 import numpy as np
 
@@ -44,7 +44,7 @@ from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.admission import continues_moved, least_compared
+    from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING, continues_moved, least_compared
     from softshadow.pipeline.fast.batch.geometry import geometry_of
     from softshadow.pipeline.fast.batch.segments import Part, cut, whole
     from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
@@ -118,25 +118,30 @@ class DrawQueue:
             if kind is not self._kind and not (self._are_small and n_vertices < least_compared(command)):
                 self.carry_out()
             self._kind, self._like = kind, command
-        batch = self._batches.get(kind.batch)
-        if batch is None:
-            batch = self._batches[kind.batch] = []
-        batch.append(command)
-        last, query = self._segment, self._storage.active_query
-        if last is not None and last.kind is kind and last.continues_with(command.state, query):
-            last.end += 1
-        else:
-            self._segment = Segment(kind, command, len(batch) - 1, len(batch), query)
-            self._segments.append(self._segment)
-            self._queries.add(query)
-            self._textures.update(kind.names)
-            self._framebuffers.add(command.state.draw_framebuffer)
-        self._n_commands += 1
-        self._n_vertices += n_vertices
+        self._let_wait(kind, (command,), n_vertices)
         self._are_small = self._are_small and n_vertices < least_compared(command)
         if self._n_commands == MOST_DRAWS:
             self.carry_out()
         return True
+
+    def _let_wait(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> None:
+        """Let draws of a kind and of one state wait, with so many vertices."""
+        batch = self._batches.get(kind.batch)
+        if batch is None:
+            batch = self._batches[kind.batch] = []
+        first, state = len(batch), commands[0].state
+        batch += commands
+        last, query = self._segment, self._storage.active_query
+        if last is not None and last.kind is kind and last.continues_with(state, query):
+            last.end = len(batch)
+        else:
+            self._segment = Segment(kind, commands[0], first, len(batch), query)
+            self._segments.append(self._segment)
+            self._queries.add(query)
+            self._textures.update(kind.names)
+            self._framebuffers.add(state.draw_framebuffer)
+        self._n_commands += len(commands)
+        self._n_vertices += n_vertices
 
     def add_alike(self, commands: Sequence[Draw]) -> int:
         """Let draws wait that differ from the first one in vertices and indices only; return how many do, from it on.
@@ -152,19 +157,53 @@ class DrawQueue:
         if not self.add(commands[0]):
             return 0
         others = list(takewhile(continues_moved, commands[1:]))
-        return 1 + len(others) if others and self._add_others(commands[0], others) else 1
+        return 1 + len(others) if self._add_others(commands[0], others) else 1
+
+    def add_in_turns(self, commands: Sequence[Draw], keys: Sequence[Hashable]) -> int:
+        """Let draws wait, of which those with equal keys differ in vertices and modelview matrix only, as `add_like`.
+
+        A program that changes the mode or the state between small draws goes back and forth between a few kinds.
+        """
+        if len(set(keys)) == 1:
+            return self.add_like(commands)
+        counts = [len(command.vertices.position) for command in commands]
+        can_continue = list(map(continues_moved, commands))
+        kinds: dict[Hashable, Kind] = {}
+        first = 0
+        for key, same in groupby(keys):
+            end = first + len(list(same))
+            own = counts[first:end]
+            is_known = key in kinds and max(own) < WORTH_COMPARING and all(can_continue[first:end])
+            if is_known and self._adds_few(kinds[key], commands[first:end], sum(own)):
+                first = end
+            while first < end:
+                n_added = self.add_like(commands[first:end])
+                if not n_added:
+                    return first
+                first += n_added
+            if self._kind is not None:
+                kinds[key] = self._kind
+        return first
 
     def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
         """Let draws wait that continue the first one, the last that waits; do nothing if they are many or large."""
+        if not others:
+            return True
         counts = [len(command.vertices.position) for command in (first, *others)]
-        n_vertices = sum(counts) - counts[0]
-        is_full = self._n_commands + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        if is_full or max(counts) >= least_compared(first) or self._kind is None or self._segment is None:
+        if max(counts) >= least_compared(first) or self._kind is None:
             return False
-        self._batches[self._kind.batch] += others
-        self._segment.end += len(others)
-        self._n_commands += len(others)
-        self._n_vertices += n_vertices
+        return self._adds_few(self._kind, others, sum(counts) - counts[0])
+
+    def _adds_few(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> bool:
+        """Let small draws of a kind wait that are alike; do nothing and return False if they are many, or others large.
+
+        Those that wait and are large are of the same kind.
+        """
+        is_full = self._n_commands + len(commands) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        if is_full or not (self._are_small or kind is self._kind):
+            return False
+        self._let_wait(kind, commands, n_vertices)
+        self._kind, self._like = kind, commands[0]
         return True
 
     def add_other(self, command: Command, only_cells: bool) -> None:

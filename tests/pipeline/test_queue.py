@@ -10,6 +10,7 @@ from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
 from softshadow.pipeline import queue, use_short_cuts
+from softshadow.pipeline.draw_kinds import Kinds
 from softshadow.pipeline.fast.batch.admission import LONG_DRAW, WORTH_COMPARING
 from softshadow.pipeline.fast.batch.segments import Part
 
@@ -244,6 +245,22 @@ def test_a_result_carries_out_only_draws_that_the_query_counts(batches):
     gl.glEndQuery(gl.GL_SAMPLES_PASSED)
     assert gl.glGetQueryObjectuiv(queries[0], gl.GL_QUERY_RESULT) == counts[0]
     assert batches == [2, 2]
+
+
+def test_draws_in_turns_ask_once_for_each_kind(batches, monkeypatch):
+    asked, of = [], Kinds.of
+    monkeypatch.setattr(Kinds, "of", lambda self, command: asked.append(command.mode) or of(self, command))
+    gl.create_context(SIZE, SIZE)
+    for n in range(20):
+        gl.glTranslatef(n / 100, 0, 0)
+        for mode in (gl.GL_POLYGON, gl.GL_LINE_LOOP):
+            gl.glBegin(mode)
+            for corner in ((-1, -1), (1, -1), (1, 1)):
+                gl.glVertex2f(*corner)
+            gl.glEnd()
+    gl.glFinish()
+    assert sorted(asked) == [gl.GL_LINE_LOOP, gl.GL_POLYGON]
+    assert batches == [20, 20]
 
 
 def test_large_draws_of_one_kind_are_set_up_together(batches):

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from softshadow import gl
 from softshadow.context import Context
-from softshadow.pipeline import plan, use_short_cuts
+from softshadow.pipeline import use_short_cuts
 from softshadow.pipeline.fast import geometry_cache, recent_triangles
-from softshadow.pipeline.fast.batch import geometry
+from softshadow.pipeline.fast.batch import admission, geometry
 from softshadow.pipeline.fast.recent_triangles import RecentTriangles
 
 SIZE = 40
@@ -24,7 +24,7 @@ def hits(monkeypatch):
     monkeypatch.setattr(geometry, "least_compared", lambda _: 1)
     monkeypatch.setattr(geometry, "SMALL", 0)
     monkeypatch.setattr(geometry_cache, "FEW_VERTICES", 0)
-    monkeypatch.setattr(plan, "LONG_DRAW", 40)
+    monkeypatch.setattr(admission, "LONG_DRAW", 40)
     found, look_up = [], RecentTriangles.look_up
 
     def noted(self, key):

@@ -24,7 +24,7 @@ from softshadow.state import Points, Polygon, State
 PLAIN_POINTS = Points()
 WORTH_COMPARING = 256  # vertices of a draw from which it is compared with recent ones
 STRIPS_WORTH_COMPARING = 4096  # of several strips, which seldom come again under other states
-LONG_DRAW = 1 << 14  # vertices from which a draw without colours goes in chunks (fast.depth_only)
+LONG_DRAW = 1 << 13  # vertices from which a draw without colours goes in chunks (fast.depth_only)
 LEAST_HEIGHT = 1 / 8  # half pixels that no rounding makes of nothing: steps of window y are 1/256 pixel or less
 
 
