@@ -16,9 +16,10 @@ from pathlib import Path
 # all files with kernels, and all files these import: constants become part of the compiled code
 KERNEL_SOURCES = (
     "bench/plain_loops.py", "color_values.py", "context/matrix_kinds.py", "context/matrix_products.py",
-    "encoded_pixels.py", "errors.py", "framebuffer.py", "frozen.py", "gl/bezier.py", "image.py", "jit",
-    "kernel_cache.py", "matrices.py", "packed_colors.py", "packed_floats.py", "pixel_store.py", "pixel_transfer.py",
-    "pixels.py", "state", "texel_codes.py", "texture.py", "tokens.py", "pipeline", "programs", "scene", "truth",
+    "encoded_pixels.py", "errors.py", "framebuffer.py", "frozen.py", "gl/bezier.py", "gl/mipmap_scaling.py", "image.py",
+    "jit", "kernel_cache.py", "matrices.py", "packed_colors.py", "packed_floats.py", "pixel_store.py",
+    "pixel_transfer.py", "pixels.py", "state", "texel_codes.py", "texture.py", "tokens.py", "pipeline", "programs",
+    "scene", "truth",
 )  # fmt: skip
 MAX_VERSIONS = 8
 

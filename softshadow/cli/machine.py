@@ -97,6 +97,9 @@ def _move_images() -> None:
         gl.glReadPixels(0, 0, side, side, gl.GL_RGB, gl.GL_UNSIGNED_BYTE)
         gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 1, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, None)
         gl.glGenerateMipmap(gl.GL_TEXTURE_2D)  # of an image with a side that is not even
+        gl.gluBuild2DMipmaps(
+            gl.GL_TEXTURE_2D, gl.GL_RGB, 3, 5, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, np.zeros((5, 12), np.uint8)
+        )
 
 
 @contextmanager

@@ -14,7 +14,8 @@ from softshadow.framebuffer import LARGEST_SIDE
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
 from softshadow.gl.glu_tokens import GLU_INVALID_ENUM, GLU_INVALID_OPERATION, GLU_INVALID_VALUE
-from softshadow.gl.image_scaling import from_shorts, halve, scale, scale_shorts, to_shorts
+from softshadow.gl.image_scaling import from_shorts, halve, scale_shorts, to_shorts
+from softshadow.gl.mipmap_scaling import scale
 from softshadow.gl.pixel_memory import image_source
 from softshadow.gl.texture_images import glTexImage2D
 from softshadow.packed_colors import PACKED_COLORS
@@ -89,7 +90,7 @@ def _build(
     if image is None:
         return 0
     if scaled != size:
-        image = scale(image, *scaled)
+        image = halve(image) if size == (2 * scaled[0], 2 * scaled[1]) else scale(image, *scaled)
     with packed_tightly(context):
         while True:
             if level >= base:

@@ -1,7 +1,7 @@
 """Images made larger or smaller by box filters, in the arithmetic of libGLU (libutil, mipmap.c).
 
-GLU has two filters: gluScaleImage works on 16-bit numbers and wraps at the edges of the image; mipmaps are scaled and
-halved in the type of the image. All arrays are (height, width, components).
+GLU has two filters: gluScaleImage works on 16-bit numbers and wraps at the edges of the image; mipmaps are scaled
+(`mipmap_scaling`) and halved in the type of the image. All arrays are (height, width, components).
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 F32 = np.float32
-ONE = F32(1)
 
 
 # -- gluScaleImage -----------------------------------------------------------------------------------------------------
@@ -132,80 +131,3 @@ def _mean_of_ints(parts: list[np.ndarray]) -> np.ndarray:
     mean = (parts[0].view(np.uint32).astype(F32) + parts[1].view(np.uint32).astype(F32)).astype(np.float64) / 2
     fits = mean < -float(np.iinfo(np.int32).min)
     return np.where(fits, mean, np.iinfo(np.int32).min).astype(np.int32)  # as the processor converts what does not fit
-
-
-class Boxes(NamedTuple):
-    """The box of input rows or columns of each output one: from `low` + `low_share` to `high` + `high_share`."""
-
-    low: np.ndarray
-    low_share: np.ndarray
-    high: np.ndarray
-    high_share: np.ndarray
-
-
-def scale(image: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return an image in another size, in its own type."""
-    height_in, width_in, components = image.shape
-    if (height_in, width_in) == (2 * height, 2 * width):
-        return halve(image)
-    rows, columns = _boxes(height_in, height, height_in - 1), _boxes(width_in, width, width_in)
-    area = (F32(width_in) / F32(width)) * (F32(height_in) / F32(height))
-    pixels = image.reshape(-1, components).astype(F32)
-    totals = np.zeros((height, width, components), F32)
-    top, bottom, left, right = rows.low[:, None], rows.high[:, None], columns.low[None], columns.high[None]
-    below, above = rows.low_share[:, None], rows.high_share[:, None]
-    before, after = columns.low_share[None], columns.high_share[None]
-    tall, wide = bottom > top, right > left
-
-    def values(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-        return pixels[np.minimum(row * width_in + column, len(pixels) - 1)]
-
-    def add(row: np.ndarray, column: np.ndarray, share: np.ndarray, where: np.ndarray) -> None:
-        np.add(totals, values(row, column) * np.asarray(share, F32)[..., None], out=totals, where=where[..., None])
-
-    first_row = np.where(tall, ONE - below, above - below)
-    first_column = np.where(wide, ONE - before, after - before)
-    always = np.ones((height, width), bool)
-    most_rows, most_columns = int((bottom - top).max()), int((right - left).max())
-    add(top, left, first_row * first_column, always)
-    for step in range(1, most_columns):
-        add(top, left + step, first_row + 0 * after, always & (left + step < right))
-    add(top, right, first_row * after, always & wide)
-    for step in range(1, most_rows):
-        add(top + step, left, first_column + 0 * above, ~wide & (top + step < bottom))
-    add(bottom, left, first_column * above, tall & always)
-    for step in range(1, most_columns):
-        add(bottom, left + step, above + 0 * after, tall & (left + step < right))
-    add(bottom, right, above * after, tall & wide)
-    for step in range(1, most_rows):
-        # libGLU moves on by a pixel in each row here
-        row, aside = top + step, step - 1
-        both = values(row, left + aside) * (ONE - before)[..., None] + values(row, right + aside) * after[..., None]
-        np.add(totals, both, out=totals, where=(tall & wide & (row < bottom))[..., None])
-    for step in range(1, most_rows):
-        for across in range(1, most_columns):
-            inside = (top + step < bottom) & (left + across < right)
-            add(top + step, left + across, np.ones((height, width), F32), inside)
-    scaled = totals / area
-    if image.dtype == np.float32:
-        return scaled
-    limit = np.iinfo(image.dtype)
-    return np.clip(np.trunc(scaled.astype(np.float64)), limit.min, limit.max).astype(image.dtype)
-
-
-def _boxes(size_in: int, size_out: int, highest: int) -> Boxes:
-    """Return the boxes of `size_out` rows or columns, none above `highest`; their bounds add up in single precision."""
-    step = F32(size_in) / F32(size_out)
-    whole = floor(step)
-    share = step - F32(whole)
-    low, low_share, high, high_share = 0, F32(0), whole, share
-    boxes: list[tuple[int, np.float32, int, np.float32]] = []
-    for _ in range(size_out):
-        high = min(high, highest)
-        boxes.append((low, low_share, high, high_share))
-        low, low_share = high, high_share
-        high, high_share = high + whole, high_share + share
-        if high_share > 1:
-            high, high_share = high + 1, high_share - ONE
-    lows, low_shares, highs, high_shares = zip(*boxes, strict=True)
-    return Boxes(np.array(lows), np.array(low_shares, F32), np.array(highs), np.array(high_shares, F32))

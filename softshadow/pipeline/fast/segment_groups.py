@@ -61,15 +61,15 @@ class Triangles:
 class Taken(NamedTuple):
     """What the draws of one state have in common in a group.
 
-    alive: what they are known by, by identity; state: the place of its numbers; triangles: of their batch; places: the
-    last columns of their rows, which are the region and the places of textures; range: of depths.
+    alive: what they are known by, by identity; triangles: of their batch; row: theirs in the table of segments, but for
+    which triangles they have; range: of depths; place: among all that is taken.
     """
 
     alive: tuple[Any, ...]
-    state: int
     triangles: Triangles
-    places: tuple[int, ...]
+    row: tuple[int, ...]
     range: DepthRange
+    place: int
 
 
 class Group:
@@ -82,9 +82,9 @@ class Group:
 
     def __init__(self, target: Framebuffer, storage: Storage) -> None:
         self._target, self._storage = target, storage
-        self._rows: list[tuple[int, ...]] = []  # of the table of segments, with places in batches
+        self._taken: list[Taken] = []
+        self._rows: list[tuple[int, int, int]] = []  # of each segment: its `Taken`, first and end triangle in its batch
         self._queries: list[int] = []  # the occlusion query of each segment
-        self._ranges: list[DepthRange] = []
         self._states: dict[int, tuple[int, SegmentState]] = {}  # with their places, by identity
         self._batches: dict[int, Triangles] = {}  # in use, by the identity of the batch
         self._texels: list[np.ndarray] = []
@@ -107,10 +107,10 @@ class Group:
             if taken is None:
                 return False
             self._known[key] = taken
+            self._taken.append(taken)
         taken.triangles.end = part.end
-        self._rows.append((taken.state, taken.triangles.place, part.first, part.end, *taken.places))
+        self._rows.append((taken.place, part.first, part.end))
         self._queries.append(query)
-        self._ranges.append(taken.range)
         self._n_triangles += count
         self._work += work_of(numbers, part.fragments, count)
         return True
@@ -128,8 +128,8 @@ class Group:
         if triangles is None:
             triangles = self._batches[id(part.batch)] = Triangles(len(self._batches), part.batch, part.first, part.end)
             self._columns = max(self._columns, len(part.batch.flat))
-        places, depth_range = (*self._region_of(state)[:4], *used), depth_range_of(state, np.float32)
-        return Taken((state, part), k, triangles, places, depth_range)
+        row = k, triangles.place, 0, 0, *self._region_of(state)[:4], *used
+        return Taken((state, part), triangles, row, depth_range_of(state, np.float32), len(self._taken))
 
     def _place_of(self, texture: Texture) -> int:
         if id(texture) not in self._places:
@@ -187,7 +187,9 @@ class Group:
         return passed
 
     def _segments(self) -> Segments:
-        batches, table = list(self._batches.values()), np.array(self._rows, np.int32)
+        batches, rows = list(self._batches.values()), np.array(self._rows, np.int32)
+        places, table = rows[:, 0], np.array([taken.row for taken in self._taken], np.int32)[rows[:, 0]]
+        table[:, FIRST : END + 1] = rows[:, 1:]
         starts = accumulate([each.end - each.first for each in batches], initial=0)
         shifts = [start - each.first for start, each in zip(starts, batches, strict=False)]
         if any(shifts):
@@ -198,7 +200,7 @@ class Group:
         lefts, rights, firsts, ends, _ = zip(*self._regions.values(), strict=True)
         region = Region(min(lefts), max(rights), min(firsts), max(ends), int(self._target.flipped))
         return Segments(
-            table, np.array(self._ranges, np.float32), np.array(flats),
+            table, np.array([taken.range for taken in self._taken], np.float32)[places], np.array(flats),
             state_tables(states), padded_textures(self._texels), *buffers, region, self._work,
         )  # fmt: skip
 
