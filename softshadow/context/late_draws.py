@@ -93,10 +93,10 @@ def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
 
 
 class LateCommands(NamedTuple):
-    """Late draws, of which those with equal `keys` differ in vertices and modelview matrix only.
+    """Late draws, of which those with equal `keys` differ in vertices, indices and modelview matrix only.
 
-    They have arrays of the same attributes. `memory`: that of these arrays, which all pairs share; None where each draw
-    has its own.
+    Vertices of equal keys have arrays of the same attributes. `memory`: that of these arrays, which all pairs share;
+    None where each draw has its own.
     """
 
     draws: list[Draw]
@@ -104,7 +104,7 @@ class LateCommands(NamedTuple):
     memory: list[np.ndarray] | None
 
 
-def _kind_of(draw: LateDraw | MovedDraw) -> tuple[type, bool]:
+def _group_of(draw: LateDraw | MovedDraw) -> tuple[type, bool]:
     """Return by what draws are taken together: stippled ones are not, as a pattern goes on from one to the next."""
     like = draw.form.like if isinstance(draw, LateDraw) else draw.like
     return type(draw), like.state.lines.stippled
@@ -167,7 +167,7 @@ class LateDraws:
     def take(self) -> Iterator[LateCommands]:
         """Yield the draws in their order, and forget them."""
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        for (kind, _), same in groupby(draws, _kind_of):
+        for (kind, _), same in groupby(draws, _group_of):
             of_kind: list[Any] = list(same)
             yield self._with_numbers(of_kind) if kind is LateDraw else _with_arrays(of_kind)
 

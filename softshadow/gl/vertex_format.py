@@ -187,7 +187,7 @@ def store_vertices(context: Context, primitive: Primitive) -> None:
 
 def set_limit(buffer: VertexBuffer, primitive: Primitive) -> int:
     """Set how many numbers the positions may have, by the room in the buffer; return for how many vertices it is."""
-    room = buffer.room_for(buffer.sizes) - 1 - buffer.n_vertices  # one is reserved for the end of a line loop
+    room = buffer.room - 1 - buffer.n_vertices  # one is reserved for the end of a line loop
     primitive.limit = len(primitive.positions) + 4 * room
     return room
 

@@ -94,9 +94,12 @@ def can_run(command: Draw) -> bool:
 def continues_moved(command: Draw) -> bool:
     """Return whether a draw continues a run if it differs from the draw before in vertices and modelview matrix only.
 
-    It is small (`least_compared`), and has arrays of the same attributes.
+    It is small (`least_compared`), and has arrays of the same attributes. What edge flags decide depends on their values
+    (`is_outlined_alone`).
     """
-    return not (command.modelview_kind & UNKNOWN or leaves_out_triangles(command))
+    if command.modelview_kind & UNKNOWN or command.vertices.edges is not None:
+        return False
+    return not leaves_out_triangles(command)
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:
