@@ -94,8 +94,8 @@ def can_run(command: Draw) -> bool:
 def continues_moved(command: Draw) -> bool:
     """Return whether a draw continues a run if it differs from the draw before in vertices and modelview matrix only.
 
-    It is small (`least_compared`), and has arrays of the same attributes. What edge flags decide depends on their values
-    (`is_outlined_alone`).
+    It is small (`least_compared`), and has arrays of the same attributes. What edge flags decide depends on their
+    values (`is_outlined_alone`).
     """
     if command.modelview_kind & UNKNOWN or command.vertices.edges is not None:
         return False
