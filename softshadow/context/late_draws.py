@@ -104,10 +104,9 @@ class LateCommands(NamedTuple):
     memory: list[np.ndarray] | None
 
 
-def _group_of(draw: LateDraw | MovedDraw) -> tuple[type, bool]:
-    """Return by what draws are taken together: stippled ones are not, as a pattern goes on from one to the next."""
-    like = draw.form.like if isinstance(draw, LateDraw) else draw.like
-    return type(draw), like.state.lines.stippled
+def _is_stippled(draw: LateDraw) -> bool:
+    """Return whether a draw is not taken with others, as a pattern goes on from one to the next."""
+    return draw.form.like.state.lines.stippled
 
 
 def _with_arrays(draws: Sequence[MovedDraw]) -> LateCommands:
@@ -121,11 +120,11 @@ def _moved(alike: Sequence[MovedDraw]) -> list[Draw]:
 
 def _in_turns(keys: Sequence[Hashable], draws: Iterable[Any], make: Callable[[list[Any]], list[Draw]]) -> list[Draw]:
     """Return draws in their order; those with equal keys are made together."""
+    if len(set(keys)) == 1:
+        return make(list(draws))
     alike: dict[Hashable, list[Any]] = {}
     for key, draw in zip(keys, draws, strict=True):
         alike.setdefault(key, []).append(draw)
-    if len(alike) == 1:
-        return make(*alike.values())
     made = {key: iter(make(same)) for key, same in alike.items()}
     return [next(made[key]) for key in keys]
 
@@ -167,9 +166,13 @@ class LateDraws:
     def take(self) -> Iterator[LateCommands]:
         """Yield the draws in their order, and forget them."""
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        for (kind, _), same in groupby(draws, _group_of):
-            of_kind: list[Any] = list(same)
-            yield self._with_numbers(of_kind) if kind is LateDraw else _with_arrays(of_kind)
+        for kind, group in groupby(draws, type):
+            same: Iterator[Any] = group
+            if kind is MovedDraw:
+                yield _with_arrays(list(same))
+            else:
+                for _, alike in groupby(same, _is_stippled):
+                    yield self._with_numbers(list(alike))
 
     def _with_numbers(self, draws: Sequence[LateDraw]) -> LateCommands:
         memory: list[np.ndarray] = []
