@@ -10,16 +10,10 @@ of the window for each, one with many samples of a light accumulates the picture
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
 from itertools import groupby, takewhile
 
-import numpy as np
-
-from softshadow import pipeline
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Storage
-from softshadow.jit import announce_compiling
-from softshadow.pipeline.choose import joins_others
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
     Accumulate,
@@ -38,43 +32,17 @@ from softshadow.pipeline.commands import (
 )
 from softshadow.pipeline.draw_kinds import Kind, Kinds
 from softshadow.pipeline.execute import execute
-from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST, plan_draw
-from softshadow.pipeline.records import FragmentCounts
-from softshadow.state import State
+from softshadow.pipeline.execute_waiting import Segment, execute_waiting
+from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
     from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING, continues_moved, least_compared
-    from softshadow.pipeline.fast.batch.geometry import geometry_of
-    from softshadow.pipeline.fast.batch.segments import Part, cut, whole
-    from softshadow.pipeline.fast.batch.table import BATCH_KERNELS
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
-    from softshadow.pipeline.fast.segment_groups import Group
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
 MOST_BYTES = 1 << 24  # of texels that wait
-
-
-@dataclass(eq=False, slots=True)
-class Segment:
-    """Consecutive draws of one kind with one viewport and one scissor box, which are those of `command`.
-
-    `first` and `end` are the places of the first one, and of the one after the last, in their batch; `query` counts
-    their fragments, if it is not 0.
-    """
-
-    kind: Kind
-    command: Draw
-    first: int
-    end: int
-    query: int
-
-    def continues_with(self, state: State, query: int) -> bool:
-        """Return whether a draw of the kind has the same viewport, scissor box and query."""
-        own = self.command.state
-        is_in_place = own is state or (own.scissor is state.scissor and own.viewport is state.viewport)
-        return is_in_place and self.query == query
 
 
 class DrawQueue:
@@ -321,65 +289,4 @@ class DrawQueue:
         self._segments, self._segment = [], None
         self._textures, self._framebuffers, self._is_copied = set(), set(), False
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
-        if not BATCH_KERNELS.are_compiled():
-            announce_compiling()
-        with np.errstate(all="ignore"):  # as in pipeline.draw
-            parts = self._parts(batches, [each for each in segments if isinstance(each, Segment)])
-            BATCH_KERNELS.note_compiled()
-            group: Group | None = None
-            for segment in segments:
-                if isinstance(segment, Segment):
-                    part = parts[id(segment)]
-                    group = self._draw_segment(segment, part, group) if part.end > part.first else group
-                    continue
-                if group and not (isinstance(segment, UpdateImage | DefineImage) and group.keeps(segment.texture)):
-                    group.draw()
-                    group = None
-                execute(segment, self._storage)
-            if group:
-                group.draw()
-
-    def _draw_segment(self, segment: Segment, part: Part, group: Group | None) -> Group | None:
-        """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
-
-        The draws of a group that has been drawn, or could not take them, come first.
-        """
-        plan, command, query, storage = segment.kind.plan, segment.command, segment.query, self._storage
-        state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
-        counts = FragmentCounts.zero(only_passed=True) if query else None
-        if counts is not None:
-            if not segment.kind.counting:
-                segment.kind.counting.append(plan_draw(command, target, counts))
-            (plan,) = segment.kind.counting
-        numbers = joins_others(plan, state, target, part)
-        if numbers is None:
-            if group:
-                group.draw()
-            pipeline.draw_geometry(plan, command, target, storage, part.geometry(), counts)
-            if counts is not None:
-                storage.note_passed(query, counts.passed)
-            return None
-        if group and group.takes(state, numbers, part, target, query):
-            return group
-        if group:
-            group.draw()
-        group = Group(target, storage)
-        group.takes(state, numbers, part, target, query)
-        return group
-
-    def _parts(self, batches: dict[int, list[Draw]], segments: list[Segment]) -> dict[int, Part]:
-        """Return the triangles of each segment, by its identity."""
-        parts: dict[int, Part] = {}
-        of_batch: dict[int, list[Segment]] = {number: [] for number in batches}
-        for segment in segments:
-            of_batch[segment.kind.batch].append(segment)
-        for number, own in of_batch.items():
-            draws, kind = batches[number], own[0].kind
-            target = self._storage.framebuffers[kind.run.state.draw_framebuffer]
-            batch = geometry_of(kind.run, kind.setting, draws, target, self._storage)
-            if len(own) == 1:
-                parts[id(own[0])] = whole(batch)
-                continue
-            firsts, settings = [segment.first for segment in own], [segment.kind.setting for segment in own]
-            parts.update(zip(map(id, own), cut(batch, draws, firsts, settings), strict=True))
-        return parts
+        execute_waiting(batches, segments, self._storage)

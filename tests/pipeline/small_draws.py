@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softshadow import gl
-from softshadow.pipeline import draw_kinds, queue
+from softshadow.pipeline import draw_kinds, execute_waiting
 from softshadow.pipeline.commands import Draw
 
 SIZE = 32
@@ -24,13 +24,13 @@ def planned(monkeypatch):
 def batches(monkeypatch):
     """Return a list that gets the number of draws of each batch that is set up."""
     batches: list[int] = []
-    geometry_of = queue.geometry_of
+    geometry_of = execute_waiting.geometry_of
 
     def note_batch(run: Any, setting: Any, draws: list[Draw], *rest: Any) -> Any:
         batches.append(len(draws))
         return geometry_of(run, setting, draws, *rest)
 
-    monkeypatch.setattr(queue, "geometry_of", note_batch)
+    monkeypatch.setattr(execute_waiting, "geometry_of", note_batch)
     return batches
 
 

@@ -9,7 +9,7 @@ import pytest
 from draws import same_window
 from pipeline.small_draws import SIZE, draw_triangle
 from softshadow import gl
-from softshadow.pipeline import queue, use_short_cuts
+from softshadow.pipeline import execute_waiting, queue, use_short_cuts
 from softshadow.pipeline.draw_kinds import Kinds
 from softshadow.pipeline.fast.batch.admission import LONG_DRAW, WORTH_COMPARING
 from softshadow.pipeline.fast.batch.segments import Part
@@ -33,13 +33,13 @@ def test_many_small_draws_are_one_run(batches, polygon_mode):
 
 
 def test_small_draws_between_changes_of_tests_are_one_batch(batches, monkeypatch):
-    segments, draw_segment = [], queue.DrawQueue._draw_segment
+    segments, draw_segment = [], execute_waiting._draw_segment
 
-    def note_segment(waiting: queue.DrawQueue, segment: queue.Segment, part: Part, group: Any) -> Any:
+    def note_segment(segment: execute_waiting.Segment, part: Part, *rest: Any) -> Any:
         segments.append(part.end - part.first)
-        return draw_segment(waiting, segment, part, group)
+        return draw_segment(segment, part, *rest)
 
-    monkeypatch.setattr(queue.DrawQueue, "_draw_segment", note_segment)
+    monkeypatch.setattr(execute_waiting, "_draw_segment", note_segment)
     gl.create_context(SIZE, SIZE)
     gl.glEnableClientState(gl.GL_VERTEX_ARRAY)
     gl.glVertexPointer(3, gl.GL_FLOAT, 0, np.eye(3, dtype=np.float32))
@@ -320,7 +320,7 @@ def test_a_program_is_told_once_that_it_waits_for_its_kernels(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     for folder, said in ((tmp_path, "only the first time"), (None, "no cache folder is writable")):
-        monkeypatch.setattr(queue.BATCH_KERNELS, "_known", False)  # as if nothing were on disk
+        monkeypatch.setattr(execute_waiting.BATCH_KERNELS, "_known", False)  # as if nothing were on disk
         monkeypatch.setattr("softshadow.kernel_cache.cache_folder", lambda value=folder: value)
         caplog.clear()
         with gl.create_context(SIZE, SIZE):

@@ -11,7 +11,7 @@ from pipeline.fast.random_draws import SIZE, Program, same_buffers
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.framebuffer import Framebuffer, Storage
-from softshadow.pipeline import plan, queue, set_threads, threads, use_short_cuts
+from softshadow.pipeline import execute_waiting, plan, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import geometry, vertex_stage
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
@@ -148,7 +148,7 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
         geometries.append((result.geometry, process_geometry(draws[0], target, context.storage)))
         return result
 
-    context, geometry_of = gl.create_context(SIZE, SIZE), queue.geometry_of
+    context, geometry_of = gl.create_context(SIZE, SIZE), execute_waiting.geometry_of
     program.set_lighting()
     gl.glEnable(gl.GL_LIGHTING)
     program.set_matrices()
@@ -160,7 +160,7 @@ def test_a_lit_mesh_has_the_colours_of_the_textbook(seed):
             gl.glEnableClientState(array)
             point(gl.GL_FLOAT, 0, rng.uniform(-1, 1, (150, width)).astype(np.float32))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(queue, "geometry_of", compared)
+        patch.setattr(execute_waiting, "geometry_of", compared)
         if program.environment.random() < 0.5:
             gl.glDrawArrays(gl.GL_TRIANGLES, 0, 150)
         else:
@@ -218,8 +218,8 @@ def test_the_cut_of_quads_depends_on_their_segment(seed, n_clipped):
 
 
 def test_the_planes_of_draws_are_those_of_single_draws(monkeypatch):
-    waiting, geometry_of = [], queue.geometry_of
-    monkeypatch.setattr(queue, "geometry_of", lambda run, setting, draws, *more: (
+    waiting, geometry_of = [], execute_waiting.geometry_of
+    monkeypatch.setattr(execute_waiting, "geometry_of", lambda run, setting, draws, *more: (
         waiting.append(draws), geometry_of(run, setting, draws, *more))[1])  # fmt: skip
     for seed in range(20):
         Program(seed).draw()
