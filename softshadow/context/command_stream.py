@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import groupby
 from typing import Any, Protocol
-
-import numpy as np
 
 from softshadow.context.late_draws import LateCommands, LateDraw, LateDraws, MovedDraw
 from softshadow.context.line_pattern import LinePattern
@@ -87,36 +86,37 @@ class CommandStream:
         """Carry out and record draws that differ from the first one in vertices and indices only."""
         if self.late.draws:
             self.draw_late()
-        self._carry_out_several(commands, lambda n: self._queue.add_alike(commands[n:]))
+        self._carry_out_several(commands, self._queue.add_alike)
 
     def carry_out_moved(self, commands: Sequence[Draw]) -> None:
         """Carry out and record draws that differ from the first one in vertices, indices and modelview matrix only.
 
         No draw is late.
         """
-        self._carry_out_several(commands, lambda n: self._queue.add_like(commands[n:]))
+        self._carry_out_several(commands, self._queue.add_like)
 
-    def _carry_out_several(
-        self,
-        commands: Sequence[Draw],
-        add: Callable[[int], int],
-        memory: Sequence[np.ndarray] | None = None,
+    def _carry_out_several(self, commands: Sequence[Draw], add: Callable[[Sequence[Draw]], int]) -> None:
+        """Carry out and record draws; `add` lets some of them wait."""
+        self._carry_out_parts(
+            commands, lambda first: add(commands[first:]), lambda first, end: self.frame.extend(commands[first:end])
+        )
+
+    def _carry_out_parts(
+        self, commands: Sequence[Draw], add: Callable[[int], int], record: Callable[[int, int], bool]
     ) -> None:
-        """Carry out and record draws; `add` lets some wait, from one on. For `memory` see `Frame.extend`."""
+        """Carry out draws; `add` lets some wait, from one on, and `record` records those from one to another."""
         n_done = 0
         while n_done < len(commands):
-            first = commands[n_done]
-            if self.text is not None or self.gate is not None or first.state.lines.stippled:
-                self.carry_out(first)
+            first, command = n_done, commands[n_done]
+            if self.text is not None or self.gate is not None or command.state.lines.stippled:
+                self.carry_out(command)
                 n_done += 1
                 continue
-            n_added = add(n_done)
+            n_added = add(first)
             if not n_added:
-                execute(first, self.objects)
-                n_added = 1
-            done = commands[n_done : n_done + n_added]
-            n_done += n_added
-            if self.frame.extend(done, memory):
+                execute(command, self.objects)
+            n_done += n_added or 1
+            if record(first, n_done):
                 self.frame.shorten(self.objects_after_all())
 
     def carry_out_kept(self, commands: Sequence[Command]) -> None:
@@ -144,10 +144,18 @@ class CommandStream:
     def draw_late(self) -> None:
         """Carry out and record the draws that are late."""
         for late in self.late.take():
-            self._carry_out_several(late.draws, partial(self._add_late, late), late.memory)
+            self._carry_out_parts(late.draws, partial(self._add_late, late), partial(self._record_late, late))
 
     def _add_late(self, late: LateCommands, first: int) -> int:
         return self._queue.add_in_turns(late.draws[first:], late.keys[first:])
+
+    def _record_late(self, late: LateCommands, first: int, end: int) -> bool:
+        is_long = False
+        for are_pairs, same in groupby(range(first, end), late.are_pairs.__getitem__):
+            places = list(same)
+            draws = late.draws[places[0] : places[-1] + 1]
+            is_long = self.frame.extend(draws, late.memory if are_pairs else None)
+        return is_long
 
     def carry_out_waiting(self) -> None:
         """Carry out the draws that wait in the queue."""

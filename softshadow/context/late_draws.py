@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from itertools import chain, groupby, repeat
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -95,38 +95,19 @@ def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
 class LateCommands(NamedTuple):
     """Late draws, of which those with equal `keys` differ in vertices, indices and modelview matrix only.
 
-    Vertices of equal keys have arrays of the same attributes. `memory`: that of these arrays, which all pairs share;
-    None where each draw has its own.
+    Vertices of equal keys have arrays of the same attributes. `are_pairs` says which draws are those of pairs: the
+    arrays of these are parts of `memory`.
     """
 
     draws: list[Draw]
     keys: Sequence[Hashable]
-    memory: list[np.ndarray] | None
+    are_pairs: Sequence[bool]
+    memory: list[np.ndarray]
 
 
-def _is_stippled(draw: LateDraw) -> bool:
+def _is_stippled(draw: LateDraw | MovedDraw) -> bool:
     """Return whether a draw is not taken with others, as a pattern goes on from one to the next."""
-    return draw.form.like.state.lines.stippled
-
-
-def _with_arrays(draws: Sequence[MovedDraw]) -> LateCommands:
-    keys = [id(draw.like) for draw in draws]
-    return LateCommands(_in_turns(keys, draws, _moved), keys, None)
-
-
-def _moved(alike: Sequence[MovedDraw]) -> list[Draw]:
-    return moved_draws(alike[0].like, [draw[1:] for draw in alike])
-
-
-def _in_turns(keys: Sequence[Hashable], draws: Iterable[Any], make: Callable[[list[Any]], list[Draw]]) -> list[Draw]:
-    """Return draws in their order; those with equal keys are made together."""
-    if len(set(keys)) == 1:
-        return make(list(draws))
-    alike: dict[Hashable, list[Any]] = {}
-    for key, draw in zip(keys, draws, strict=True):
-        alike.setdefault(key, []).append(draw)
-    made = {key: iter(make(same)) for key, same in alike.items()}
-    return [next(made[key]) for key in keys]
+    return type(draw) is LateDraw and draw.form.like.state.lines.stippled
 
 
 class LateDraws:
@@ -166,19 +147,29 @@ class LateDraws:
     def take(self) -> Iterator[LateCommands]:
         """Yield the draws in their order, and forget them."""
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        for kind, group in groupby(draws, type):
-            same: Iterator[Any] = group
-            if kind is MovedDraw:
-                yield _with_arrays(list(same))
-            else:
-                for _, alike in groupby(same, _is_stippled):
-                    yield self._with_numbers(list(alike))
+        for _, same in groupby(draws, _is_stippled):
+            yield self._commands_of(list(same))
 
-    def _with_numbers(self, draws: Sequence[LateDraw]) -> LateCommands:
+    def _commands_of(self, draws: Sequence[LateDraw | MovedDraw]) -> LateCommands:
+        """Return draws with their arrays; those that are alike are made together."""
         memory: list[np.ndarray] = []
-        vertices = self._vertices_of(draws, memory)
-        keys = [(id(draw.form.like), draw.form.columns) for draw in draws]
-        return LateCommands(_in_turns(keys, zip(draws, vertices, strict=True), _made), keys, memory)
+        keys: list[Hashable] = []
+        pairs: dict[Hashable, list[LateDraw]] = {}
+        moved: dict[Hashable, list[MovedDraw]] = {}
+        for draw in draws:
+            if isinstance(draw, LateDraw):
+                key: Hashable = id(draw.form.like), draw.form.columns
+                pairs.setdefault(key, []).append(draw)
+            else:
+                key = id(draw.like)
+                moved.setdefault(key, []).append(draw)
+            keys.append(key)
+        of_pairs = [draw for same in pairs.values() for draw in same]
+        vertices = self._vertices_of(of_pairs, memory)
+        made = {key: iter(_made([(draw, next(vertices)) for draw in same])) for key, same in pairs.items()}
+        for key, alike in moved.items():
+            made[key] = iter(moved_draws(alike[0].like, [draw[1:] for draw in alike]))
+        return LateCommands([next(made[key]) for key in keys], keys, [key in pairs for key in keys], memory)
 
     def _vertices_of(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterator[Vertices]:
         """Return the vertices of each of the draws; add their memory."""

@@ -222,6 +222,22 @@ def test_draws_of_two_modes_in_turns_are_late(context):
     assert [draw.state.depth.enabled for draw in draws] == [False] * 4 + [True] * 2
 
 
+def test_pairs_in_turns_with_lists_get_their_arrays_together(context):
+    gl.glNewList(1, gl.GL_COMPILE)
+    triangle()
+    gl.glEndList()
+    gl.glCallList(1)  # the first draw of a list is made at once
+    gl.glFinish()
+    for _ in range(3):
+        triangle()
+        gl.glCallList(1)
+    assert number_of(context) == 6
+    draws = context.frame.commands[1:]
+    assert [draw.modelview[2, 3] for draw in draws] == [0.125 * n for n in range(1, 7)]
+    assert len({id(draw.vertices.position.base) for draw in draws[::2]}) == 1
+    assert len({id(draw.vertices) for draw in draws[1::2]}) == 1
+
+
 def test_states_between_them_are_those_of_each_draw(context):
     for on in (True, False):
         (gl.glEnable if on else gl.glDisable)(gl.GL_DEPTH_TEST)
