@@ -42,8 +42,9 @@ def clip_lines(
     starts: np.ndarray = NO_STARTS,
 ) -> Clipped:
     """Return the parts of the lines (L, 2) inside the frustum and the user planes, as `clip_triangles` does."""
-    end_codes = codes[lines]
-    n_cut = int(np.count_nonzero(end_codes.any(axis=1)))
+    if not codes.any():
+        return Clipped(clip, values, lines, np.arange(len(lines), dtype=np.int32))
+    n_cut = int(np.count_nonzero(codes[lines].any(axis=1)))
     most_vertices = len(clip) + 2 * n_cut
     all_clip, all_values = (
         np.empty((most_vertices, 4), clip.dtype),

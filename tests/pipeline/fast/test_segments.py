@@ -142,6 +142,27 @@ def test_most_of_these_draws_are_in_groups(groups):
     assert sum(count for count, _ in groups if count > 1) > 20
 
 
+def polygons_lines_and_points():
+    """Return a window after a rectangle, a line, a rectangle and a point, all of which overlap."""
+    context = gl.create_context(SIZE, SIZE)
+    for n, (mode, count) in enumerate([(gl.GL_QUADS, 4), (gl.GL_LINES, 2), (gl.GL_QUADS, 4), (gl.GL_POINTS, 1)]):
+        gl.glColor3f(n / 3, 1 - n / 3, 0.5)
+        gl.glPointSize(5)
+        gl.glBegin(mode)
+        for x, y in [(0, 0), (0.9, 0.2), (0.8, 0.9), (-0.5, 0.6)][:count]:
+            gl.glVertex2f(x - n / 4, y)
+        gl.glEnd()
+    gl.glFinish()
+    return context
+
+
+def test_a_line_and_a_point_are_in_one_group_with_polygons(groups):
+    with use_short_cuts(False):
+        expected = polygons_lines_and_points()
+    assert same_window(polygons_lines_and_points(), expected)
+    assert groups == [(4, 8)]
+
+
 def test_draws_of_several_queries_are_in_one_group(groups):
     with gl.create_context(SIZE, SIZE) as context:
         for query in range(1, 6):

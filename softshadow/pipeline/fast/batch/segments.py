@@ -8,6 +8,7 @@ filled and shaded under one state, one after the other.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,7 +34,7 @@ def geometry_key(run: Run, setting: Setting) -> Hashable:
 class Part(NamedTuple):
     """The triangles [first, end) of a batch, which are those of a segment.
 
-    program, uniforms: what shades them; fragments: about how many they have, -1 if that is not known.
+    program, uniforms: what shades them; fragments: about how many they have.
     """
 
     batch: Geometry
@@ -54,8 +55,11 @@ class Part(NamedTuple):
 
 def whole(batch: Batch) -> Part:
     """Return the only segment of a batch."""
-    geometry = batch.geometry
-    return Part(geometry, 0, len(geometry.triangles.ids), geometry.program, geometry.uniforms, batch.fragments)
+    geometry, fragments = batch.geometry, batch.fragments
+    end = len(geometry.triangles.ids)
+    if fragments < 0:
+        fragments = extent(geometry.triangles.corners, 0, end)[4] >> 8
+    return Part(geometry, 0, end, geometry.program, geometry.uniforms, fragments)
 
 
 def cut(batch: Batch, draws: Sequence[Draw], firsts: Sequence[int], settings: Sequence[Setting]) -> list[Part]:
@@ -67,13 +71,11 @@ def cut(batch: Batch, draws: Sequence[Draw], firsts: Sequence[int], settings: Se
     firsts : the first draw of each segment
     settings : of each segment: its program shades the fragments
     """
-    ends_of_draws = np.cumsum([len(draw.vertices.position) for draw in draws])
-    starts = np.append(0, ends_of_draws)[np.asarray(firsts)]  # the first vertex of each segment
+    ends_of_draws = list(accumulate([len(draw.vertices.position) for draw in draws], initial=0))
+    starts = np.array([*map(ends_of_draws.__getitem__, firsts), ends_of_draws[-1]], np.int64)  # vertices
     geometry, triangles = batch.geometry, batch.geometry.triangles
-    segments = np.searchsorted(starts, batch.vertices[triangles.ids], side="right") - 1
-    bounds = np.searchsorted(segments, np.arange(len(starts) + 1))
-    areas = np.empty(len(starts), np.int64)
-    write_areas(triangles.corners, bounds, areas)
+    bounds, areas = np.empty(len(starts), np.int64), np.empty(len(firsts), np.int64)
+    find_segments(batch.vertices, triangles.ids, triangles.corners, starts, bounds, areas)
     ends, sizes = bounds[1:].tolist(), areas.tolist()
     return [
         Part(geometry, first, end, _with_coverage(setting.program, geometry), setting.uniforms, area)
@@ -91,7 +93,14 @@ def _with_coverage(program: Program, batch: Geometry) -> Program:
 
 
 @kernel
-def write_areas(corners, bounds, areas):
-    """Write about how many pixels the triangles [bounds[s], bounds[s + 1]) of each segment have."""
+def find_segments(vertices, ids, corners, starts, bounds, areas):
+    """Write the triangles [bounds[s], bounds[s + 1]) of each segment, and about how many pixels they have.
+
+    The segment has the vertices [starts[s], starts[s + 1]); `vertices` are those of the triangles by their `ids`.
+    """
+    t = bounds[0] = 0
     for s in range(len(areas)):
-        areas[s] = extent(corners, bounds[s], bounds[s + 1])[4] >> 8
+        while t < len(ids) and vertices[ids[t]] < starts[s + 1]:
+            t += 1
+        bounds[s + 1] = t
+        areas[s] = extent(corners, bounds[s], t)[4] >> 8

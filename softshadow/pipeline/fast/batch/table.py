@@ -32,6 +32,7 @@ from softshadow.pipeline.fast.batch.vertices import (
     UNIT_MATRIX,
     Layout,
 )
+from softshadow.pipeline.geometry.clip_planes import NO_PLANES
 from softshadow.pipeline.geometry.vertex import scale_and_shift
 from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
@@ -139,7 +140,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
         *_lighting_arrays(lightings, arrays.materials),
         run.generated,
         run.planes,
-        read_only(planes.rows),
+        NO_PLANE_ROWS if planes.rows is NO_PLANES else read_only(planes.rows),
         _joined([each.position for each in vertices], True),
         _joined([each.color for each in vertices], arrays.color),
         _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
@@ -165,15 +166,20 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
     return np.concatenate(matrices).reshape(-1, 16)
 
 
-NO_ROWS, NO_INDICES, NO_COORDINATES = np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL)
+NO_ROWS, NO_INDICES, NO_COORDINATES, NO_TEXCOORDS = map(
+    read_only, (np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL), np.empty((0, 0, 4), REAL))
+)
+NO_PLANE_ROWS = read_only(NO_PLANES)
+NO_REFLECTANCES = [read_only(np.empty((0, n_sides * lighting.REFLECTANCES), REAL)) for n_sides in (1, 2)]
 NO_SECONDARY, NO_FOG_COORDINATE = np.array(BLACK, REAL), np.zeros((), REAL)
 
 
 def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:
     if not is_array or not parts:
-        return read_only(nothing)
+        return nothing
     if len(parts) == 1:
-        return read_only(np.ascontiguousarray(parts[0]))
+        flags = parts[0].flags
+        return parts[0] if flags.c_contiguous and not flags.writeable else read_only(np.ascontiguousarray(parts[0]))
     joined = scratch((sum(map(len, parts)), *parts[0].shape[1:]), parts[0].dtype)
     return read_only(np.concatenate(parts, out=joined))
 
@@ -183,7 +189,7 @@ def _optional(
 ) -> np.ndarray:
     """Return the values of an attribute that not all vertices have, or `nothing` if no column depends on it."""
     if not is_read:
-        return read_only(nothing)
+        return nothing
     given = [getattr(each, name) for each in vertices]
     rows = [
         np.broadcast_to(initial, (len(each.position), *initial.shape)) if values is None else values
@@ -194,9 +200,9 @@ def _optional(
 
 def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -> np.ndarray:
     """Return the materials of the vertices of all draws, (V, 17 or 34); no rows if vertices have none."""
-    n_sides = 1 + two_side
     if not names:
-        return read_only(np.empty((0, n_sides * lighting.REFLECTANCES), REAL))
+        return NO_REFLECTANCES[two_side]
+    n_sides = 1 + two_side
     n_vertices, start = sum([len(draw.vertices.position) for draw in draws]), 0
     rows = scratch((n_vertices, n_sides, lighting.REFLECTANCES), REAL)
     for draw in draws:
@@ -291,6 +297,8 @@ def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
 
 def _texcoords(run: Run, vertices: Sequence[Vertices], n_vertices: int) -> np.ndarray:
     """Return the arrays of coordinates (U, V, 4); those of a unit without one are not set."""
+    if not run.units:
+        return NO_TEXCOORDS
     if len(run.units) == 1 and run.arrays.texcoords[0]:
         return _joined([each.texcoords[run.units[0].index] for each in vertices], True)[np.newaxis]
     texcoords = np.empty((len(run.units), n_vertices, 4), np.float32)
