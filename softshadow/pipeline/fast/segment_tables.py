@@ -28,6 +28,7 @@ TEXTURES = 16  # of the segments of one call
 # columns of a table of segments: rows of the tables of states and of `flats`, triangles, where they may write, textures
 STATE, FLATS, FIRST, END, LEFT, RIGHT, FIRST_ROW, END_ROW, OWN_TEXTURES = range(9)
 IN_ORDER = tuple(range(UNITS))  # the textures of a segment that is drawn alone
+MOST_KNOWN = 256  # sequences of states whose tables are kept: an animation has the same in all frames
 OF_SPANS = -1  # in column FIRST: the segment is spans, as many as column END says
 # columns of `tests`: whether depth and stencil are tested before shading, and after it; the integer that z = 1 becomes
 DEPTH_BEFORE, STENCIL_BEFORE, DEPTH_AFTER, STENCIL_AFTER, DEPTH_LARGEST = range(5)
@@ -125,6 +126,9 @@ def _test_tables(front: FragmentOps, back: FragmentOps) -> Tables:
     return tuple(read_only(array[None]) for array in arrays)
 
 
+_known_tables: dict[tuple[int, ...], tuple[Sequence[SegmentState], Tables]] = {}  # the latest, by the states' ids
+
+
 def state_tables(states: Sequence[SegmentState]) -> Tables:
     """Return the numbers of states as read-only arrays with a row per state.
 
@@ -134,7 +138,14 @@ def state_tables(states: Sequence[SegmentState]) -> Tables:
     """
     if len(states) == 1:
         return states[0].tables
-    return tuple([read_only(np.concatenate(arrays)) for arrays in zip(*[one.tables for one in states], strict=True)])
+    place = tuple(map(id, states))
+    known = _known_tables.get(place)
+    if known is None:
+        if len(_known_tables) >= MOST_KNOWN:
+            _known_tables.clear()
+        arrays = zip(*[one.tables for one in states], strict=True)
+        known = _known_tables[place] = states, tuple([read_only(np.concatenate(each)) for each in arrays])
+    return known[1]
 
 
 def texels_of_units(units: list[Unit] | None) -> list[np.ndarray]:
