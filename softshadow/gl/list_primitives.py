@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
-from typing import Any
+from operator import is_
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,15 +23,34 @@ from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import can_be_drawn_to
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
-from softshadow.gl.moved_draws import draw_maybe_later
+from softshadow.gl.moved_draws import continues, draw_maybe_later
 from softshadow.gl.pair_numbers import can_be_joined
-from softshadow.pipeline.commands import Vertices
+from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, pairs_mode_of, separate_indices
 from softshadow.pipeline.mesa.driver_draws import SEPARATE
 from softshadow.pipeline.mesa.segments import INDEXED_SEGMENT
 from softshadow.state import TEXTURE_UNITS
 
 MOST_DRAWN = 16  # current values that a primitive was drawn with
+
+
+class LatestDraw(NamedTuple):
+    """How a primitive was drawn: its vertices, the draw that it continued, and the current values, which it left."""
+
+    vertices: Vertices
+    before: Draw
+    color: tuple[float, ...]
+    normal: tuple[float, ...]
+    texcoords: tuple[tuple[float, ...], ...]
+
+    def has_values_of(self, context: Context) -> bool:
+        """Return whether these values are the current ones, the same objects, and none is pending."""
+        current, pending = context.current, context.pending
+        if current.color is not self.color or current.normal is not self.normal:
+            return False
+        if pending.old_values or pending.names or pending.hidden or pending.before_following or pending.settled:
+            return False
+        return all(map(is_, current.texcoords, self.texcoords))
 
 
 @dataclass(eq=False)
@@ -48,6 +68,8 @@ class ListPrimitive:
     made : dict                  the same by those that the vertices have
     leaves_values : bool         whether its last values become current: not those of arrays, nor of pairs right before
     slots : tuple of int         the keys of `starts`
+    drawn_color : tuple          the current colour at the last draw
+    latest : LatestDraw or None  a draw that the next one may repeat
     carried_units : (unit, name) of the texture coordinates that all vertices have from the list
     """
 
@@ -61,6 +83,8 @@ class ListPrimitive:
     drawn: DrawnVertices = field(default_factory=DrawnVertices)
     made: dict[tuple[ConstantAttribute, ...], Vertices] = field(default_factory=dict)
     leaves_values: bool = True
+    drawn_color: tuple[float, ...] | None = None
+    latest: LatestDraw | None = None
 
     def __post_init__(self) -> None:
         units, self.slots = range(TEXTURE_UNITS), tuple(self.starts)
@@ -80,8 +104,29 @@ class ListPrimitive:
 
     def draw(self, context: Context) -> None:
         """Draw the primitive, between others."""
+        current, values = context.current, None
+        if current.color is self.drawn_color:  # else the next call will hardly be the same
+            values = current.color, current.normal, tuple(current.texcoords)
+        self.drawn_color = current.color
         constants = self.begin_draw(context)
-        draw_maybe_later(context, self.mode, self.vertices(constants), self.indices, self.slots)
+        vertices = self.vertices(constants)
+        before = draw_maybe_later(context, self.mode, vertices, self.indices, self.slots)
+        if values is not None and before is not None:
+            latest = LatestDraw(vertices, before, *values)
+            self.latest = latest if latest.has_values_of(context) else None
+
+    def draws_again(self, context: Context) -> bool:
+        """Draw the primitive if only the modelview matrix has changed since the last time; return whether it has been.
+
+        This is what a call does whose result is known, in a third of the time.
+        """
+        latest = self.latest
+        if latest is None or not (context.ready and latest.has_values_of(context) and can_be_drawn_to(context)):
+            return False
+        if not continues(context, latest.before, latest.vertices, self.indices):
+            return False
+        context.vertex_buffer.active_sizes.update(self.sizes)
+        return True
 
     def begin_draw(self, context: Context) -> ConstantSet:
         """Make the last attributes current; return the values of those that the list does not set."""

@@ -19,7 +19,7 @@ from softshadow.gl.calls import in_lists, record, spelled_like_gl
 from softshadow.gl.errors import fail, is_one_of, outside_begin
 from softshadow.gl.list_characters import Character, character_of, draw_text
 from softshadow.gl.list_compiling import with_primitives
-from softshadow.gl.list_primitives import carry_out
+from softshadow.gl.list_primitives import ListPrimitive, carry_out
 from softshadow.gl.names import has_memory_for, reserve
 from softshadow.gl.refusals import CONVERTING, refusal
 
@@ -158,13 +158,17 @@ def _call(context: Context, name: int) -> None:
     compiled = context.lists.get(name)
     if compiled is None or not compiled.calls or context.list_depth == DEEPEST_LIST:
         return
+    calls = compiled.calls
+    if len(calls) == 1 and isinstance(calls[0], ListPrimitive) and calls[0].draws_again(context):
+        return
     context.flush_vertices()
     context.list_depth += 1
     try:
-        carry_out(compiled.calls)
+        carry_out(calls)
     finally:
         context.list_depth -= 1
-        context.flush_vertices()
+        if not context.ready:
+            context.flush_vertices()
 
 
 @in_lists

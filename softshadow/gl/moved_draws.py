@@ -23,28 +23,42 @@ def draw_maybe_later(
     indices: np.ndarray | None,
     slots: tuple[int, ...],
     pairs_mode: int = 0,
-) -> None:
+) -> Draw | None:
     """Draw primitives under the current state; nobody may change the arrays afterwards.
 
-    `slots` are those of the attributes that have an array; the others have one value. `pairs_mode`: see `Draw`.
+    `slots` are those of the attributes that have an array; the others have one value. `pairs_mode`: see `Draw`. Return
+    the earlier draw that this one continues, if it waits.
     """
     if not context.ready:
         context.separate()
+        context.ready = context.compiled_list is None
     context.update_current()
     if len(vertices.position) > MOST_VERTICES:
         context.draw_prepared(mode, vertices, indices, pairs_mode)
-        return
+        return None
     earlier = context.stream.late.earlier
     key = mode, pairs_mode, id(context.drawn_state), slots
     before = earlier.get(key)
     if before is not None and _is_continued(context, before):
         context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
-        return
+        return before
     command = context.draw_prepared(mode, vertices, indices, pairs_mode)
     if _may_be_continued(context, command):
         if len(earlier) >= MOST_EARLIER:
             earlier.clear()
         earlier[key] = command  # which keeps the state, so that no other one gets its id
+    return None
+
+
+def continues(context: Context, before: Draw, vertices: Vertices, indices: np.ndarray | None) -> bool:
+    """Draw primitives later that continue an earlier draw; return False, and do nothing, if they do not.
+
+    Nothing is collected, and the arrays are of the same attributes.
+    """
+    if context.drawn_state is not before.state or not _is_continued(context, before):
+        return False
+    context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
+    return True
 
 
 def _is_continued(context: Context, before: Draw) -> bool:
@@ -71,4 +85,4 @@ def is_unmarked(context: Context) -> bool:
     return not context.labels and context.origin is None and context.stream.gate is None
 
 
-__all__ = ["draw_maybe_later", "is_unmarked"]
+__all__ = ["continues", "draw_maybe_later", "is_unmarked"]

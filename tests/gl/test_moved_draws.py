@@ -119,21 +119,53 @@ class Author(RandomAuthor):
         return calls
 
 
+class CalmAuthor(Author):
+    """Writes programs of which most calls of lists differ from the last one in the modelview matrix only."""
+
+    def moved(self) -> list[Call]:
+        return super().moved() if self.chance(0.1) else [("glTranslatef", tuple(self.numbers(3)))]
+
+    def draw(self) -> Call:
+        return ("glCallList", (self.one_of(LISTS),)) if self.chance(0.8) else super().draw()
+
+
 def at_once(
     context: Context, mode: int, vertices: Vertices, indices: Any, slots: tuple[int, ...], pairs_mode: int = 0
 ) -> None:
     context.draw(mode, vertices, indices, pairs_mode)
 
 
+@pytest.mark.parametrize("author", [Author, CalmAuthor])
 @pytest.mark.parametrize("seed", range(24))
-def test_draws_that_wait_leave_what_draws_at_once_leave(monkeypatch, seed):
-    calls, precision = Author(seed).program(), "exact" if seed % 5 == 4 else "mesa"
+def test_draws_that_wait_leave_what_draws_at_once_leave(monkeypatch, seed, author):
+    calls, precision = author(seed).program(), "exact" if seed % 5 == 4 else "mesa"
     ours = what_happened(calls, precision)
     for module in (array_draws, list_primitives):
         monkeypatch.setattr(module, "draw_maybe_later", at_once)
     expected = what_happened(calls, precision)
     different = [(number, a, b) for number, (a, b) in enumerate(zip(ours, expected, strict=True)) if a != b]
     assert not different, different[0]
+
+
+def test_a_list_that_is_called_again_and_again_repeats_its_last_draw(monkeypatch):
+    draws, draw = [], list_primitives.draw_maybe_later
+    monkeypatch.setattr(list_primitives, "draw_maybe_later", lambda *values: draws.append(values) or draw(*values))
+    with gl.create_context(8, 8) as context:
+        gl.glNewList(1, gl.GL_COMPILE)
+        gl.glBegin(gl.GL_TRIANGLES)
+        for corner in ((0, 0), (1, 0), (1, 1)):
+            gl.glNormal3f(0, 0, -1)
+            gl.glVertex2f(*corner)
+        gl.glEnd()
+        gl.glEndList()
+        for number in range(6):
+            gl.glTranslatef(0.1, 0, 0)
+            gl.glCallList(1)
+            if number == 4:
+                gl.glColor3f(0, 1, 0)
+        assert len(context.frame.commands) == 6
+        assert len(draws) == 3  # the first two, and that of another colour
+        assert context.current.normal == (0, 0, -1)
 
 
 def test_array_that_changes_after_a_draw_that_waits():
