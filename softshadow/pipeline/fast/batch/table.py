@@ -96,14 +96,12 @@ class Views(NamedTuple):
 def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
     """Return the viewport transforms of draws."""
     viewports = [draw.state.viewport for draw in draws]
-    if len(draws) == 1:
-        return Views([0], *_transform(viewports[0], target))
+    if len(set(map(id, viewports))) == 1:
+        return Views([0] * len(draws), *_transform(viewports[0], target))
     distinct = {id(viewport): viewport for viewport in viewports}
     rows = {name: row for row, name in enumerate(distinct)}
     of_draws = [rows[id(viewport)] for viewport in viewports]
     transforms = [_transform(viewport, target) for viewport in distinct.values()]
-    if len(transforms) == 1:
-        return Views(of_draws, *transforms[0])
     return Views(of_draws, *map(read_only, map(np.concatenate, zip(*transforms, strict=True))))
 
 
@@ -155,8 +153,8 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
 
 
 def _first_rows(arrays: Sequence[np.ndarray]) -> np.ndarray:
-    """Return the first row of each array."""
-    return arrays[0][:1] if len(arrays) == 1 else np.concatenate([array[:1] for array in arrays])
+    """Return the first row of each array; one row if all are the same."""
+    return arrays[0][:1] if len(set(map(id, arrays))) == 1 else np.concatenate([array[:1] for array in arrays])
 
 
 def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
