@@ -7,6 +7,7 @@ drawn together (`segment_groups`).
 
 from __future__ import annotations
 
+import math
 import threading
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from softshadow.framebuffer import Framebuffer
 from softshadow.pipeline.fast.fragment_block import block_memory
 from softshadow.pipeline.fast.segment_rows import draw_segments
 from softshadow.pipeline.fast.segment_tables import (
+    COST_OF_PLAIN,
     IN_ORDER,
     NO_DEPTH,
     NO_STENCIL,
@@ -35,9 +37,8 @@ from softshadow.state import State
 
 TRIANGLES = 1 << 12  # whose planes are computed at a time
 SPANS = 1 << 14  # collected at a time; a row of the widest buffer has at most half as many
-WORTH_BANDS = 30_000  # fragments from which bands of rows pay for several threads: they take some 250 us
-SET_UP = 8  # fragments for which bands save as much as for a triangle: its planes must go to the other core first
-STENCIL_TESTED = 8  # if the stencil test can fail: fragments that fail take an eighth of the time
+WORTH_BANDS = 180_000  # plain fragments from which bands of rows pay for several threads: they take some 300 us
+ROW, SET_UP = 20, 25  # plain fragments that take as long as to begin a row of a triangle, and as its planes
 
 
 class _SpanLists(threading.local):
@@ -126,8 +127,12 @@ def buffers_of(target: Framebuffer, writes_depth: bool) -> tuple[np.ndarray, np.
 
 
 def work_of(numbers: SegmentState, fragments: int, n_triangles: int) -> int:
-    """Return for how many fragments without a stencil test bands save as much as for these and their triangles."""
-    return fragments // (STENCIL_TESTED if numbers.tests_stencil else 1) + SET_UP * n_triangles
+    """Return how many plain fragments take as long as these and their triangles.
+
+    A triangle of F fragments has about the root of 2 F rows.
+    """
+    rows = math.isqrt(2 * fragments * n_triangles)
+    return fragments * numbers.cost // COST_OF_PLAIN + ROW * rows + SET_UP * n_triangles
 
 
 def write_planes(geometry: Geometry, triangles: Setup, planes: np.ndarray) -> None:

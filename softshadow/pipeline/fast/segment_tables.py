@@ -29,6 +29,7 @@ TEXTURES = 16  # of the segments of one call
 STATE, FLATS, FIRST, END, LEFT, RIGHT, FIRST_ROW, END_ROW, OWN_TEXTURES = range(9)
 IN_ORDER = tuple(range(UNITS))  # the textures of a segment that is drawn alone
 MOST_KNOWN = 256  # sequences of states whose tables are kept: an animation has the same in all frames
+COST_OF_PLAIN, COST_OF_TEXTURE = 2, 5  # some ns each
 OF_SPANS = -1  # in column FIRST: the segment is spans, as many as column END says
 # columns of `tests`: whether depth and stencil are tested before shading, and after it; the integer that z = 1 becomes
 DEPTH_BEFORE, STENCIL_BEFORE, DEPTH_AFTER, STENCIL_AFTER, DEPTH_LARGEST = range(5)
@@ -42,14 +43,15 @@ class SegmentState(NamedTuple):
     """The fragment state of a segment, but for its textures and scissor box.
 
     tables: its numbers, with one row per array (`state_tables`); special: of `special_fragments.special_numbers`;
-    writes_depth, only_lessens, tests_stencil: whether its draws write depths, make none larger, test stencil values.
+    writes_depth, only_lessens: whether its draws write depths, make none larger; cost: of a fragment, where that of a
+    plain one is `COST_OF_PLAIN`.
     """
 
     tables: Tables
     special: np.ndarray
     writes_depth: bool
     only_lessens: bool
-    tests_stencil: bool
+    cost: int
 
 
 def segment_state(
@@ -78,8 +80,10 @@ def segment_state(
     numbers = covered_state(state, target, geometry, units)
     if numbers is None:
         return None
-    writes_depth, tests_stencil = front.depth_write or back.depth_write, front.stencil_test or back.stencil_test
-    what = bool(writes_depth), only_lessens_depths(front, back), bool(tests_stencil)
+    cost = COST_OF_PLAIN + COST_OF_TEXTURE * len(units or [])
+    if front.stencil_test or back.stencil_test:
+        cost //= 2  # those that fail take an eighth of the time
+    what = bool(front.depth_write or back.depth_write), only_lessens_depths(front, back), cost
     if front.alpha_test and target.colors[0].format.kind == "float":
         if np.isnan(state.alpha.ref):
             return None

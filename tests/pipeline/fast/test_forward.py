@@ -12,7 +12,7 @@ from fixed_function_pictures import random_picture
 from softshadow import gl
 from softshadow.context import Context
 from softshadow.pipeline import choose, explain_paths, set_threads, threads, use_short_cuts
-from softshadow.pipeline.fast import forward
+from softshadow.pipeline.fast import forward, segment_groups
 
 
 @pytest.fixture(autouse=True)
@@ -77,6 +77,37 @@ def test_bands_of_rows_keep_the_order(seed):
     finally:
         set_threads(before)
         forward.WORTH_BANDS = worth
+
+
+def work_of_rectangles(monkeypatch, width, height, n_rectangles=1, *caps):
+    """Return the work of blended rectangles as it is estimated."""
+    drawn, draw_rows = {}, forward.draw_rows
+
+    def note(segments, *rest):
+        drawn[id(segments)] = segments  # in bands of rows, the same ones several times
+        return draw_rows(segments, *rest)
+
+    monkeypatch.setattr(forward, "draw_rows", note)
+    monkeypatch.setattr(segment_groups, "draw_rows", note)
+    with gl.create_context(400, 400):
+        gl.glEnable(gl.GL_BLEND)
+        for cap in caps:
+            gl.glEnable(cap)
+        image = np.zeros((2, 2, 3), np.uint8)
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 2, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, image)
+        for n in range(n_rectangles):
+            gl.glRectf(-1, -1 + n / 200, -1 + width / 200, -1 + n / 200 + height / 200)
+        gl.glFinish()
+    return sum(segments.work for segments in drawn.values())
+
+
+def test_work_grows_with_textures_rows_and_triangles_and_halves_with_a_stencil_test(monkeypatch):
+    plain = work_of_rectangles(monkeypatch, 300, 300)
+    assert 300 * 300 < plain < 1.2 * 300 * 300
+    assert 3 * plain < work_of_rectangles(monkeypatch, 300, 300, 1, gl.GL_TEXTURE_2D) < 4 * plain
+    assert work_of_rectangles(monkeypatch, 300, 300, 1, gl.GL_STENCIL_TEST) < 0.7 * plain
+    assert work_of_rectangles(monkeypatch, 300, 3, 100) > 1.3 * plain  # as many fragments
 
 
 def overlapping(seed):
