@@ -248,7 +248,7 @@ def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> S
     It is one of few fragments, or one that is drawn in order in any case.
     """
     most = sys.maxsize if plan.in_order and not plan.passing_spans else FEW_FRAGMENTS
-    if not plan.forward or part.fragments > most or part.end - part.first >= MANY_TRIANGLES:
+    if not plan.forward or not 0 <= part.fragments <= most or part.end - part.first >= MANY_TRIANGLES:
         return None
     if state.polygon.upper_edges:  # those of a group have one rule for edges
         return None

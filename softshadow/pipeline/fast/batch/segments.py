@@ -22,6 +22,8 @@ from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
 
+COUNTED = 1 << 12  # triangles of a batch: of more, which are drawn alone in any case, nobody needs the fragments here
+
 
 def geometry_key(run: Run, setting: Setting) -> Hashable:
     """Return all that the geometry of a run depends on besides its draws; runs with equal keys can be one batch."""
@@ -34,7 +36,7 @@ def geometry_key(run: Run, setting: Setting) -> Hashable:
 class Part(NamedTuple):
     """The triangles [first, end) of a batch, which are those of a segment.
 
-    program, uniforms: what shades them; fragments: about how many they have.
+    program, uniforms: what shades them; fragments: about how many they have, -1 if that is not known.
     """
 
     batch: Geometry
@@ -57,7 +59,7 @@ def whole(batch: Batch) -> Part:
     """Return the only segment of a batch."""
     geometry, fragments = batch.geometry, batch.fragments
     end = len(geometry.triangles.ids)
-    if fragments < 0:
+    if fragments < 0 and end < COUNTED:
         fragments = extent(geometry.triangles.corners, 0, end)[4] >> 8
     return Part(geometry, 0, end, geometry.program, geometry.uniforms, fragments)
 
