@@ -7,6 +7,7 @@ triangles (draw_pipe_cull.c) before llvmpipe culls by the snapped ones.
 from __future__ import annotations
 
 import numpy as np
+from numpy.lib.stride_tricks import as_strided
 
 from softshadow import tokens as gl
 
@@ -49,10 +50,11 @@ def in_clipped_segment(mode: int, needs_clipping: np.ndarray, indices: np.ndarra
     if n_used <= longest:
         return np.full(n_primitives, in_order[:n_used].any())
     step = (longest - shared) // stride * stride
-    clipped = np.array([
-        in_order[start + around_first : min(start + step + shared, n_used)].any()
-        for start in range(0, n_used, step)
-    ])  # fmt: skip
+    n_segments = -(-n_used // step)
+    padded = np.zeros(n_segments * step + shared, bool)
+    padded[:n_used] = in_order[:n_used]
+    windows = as_strided(padded, (n_segments, step + shared), (step, 1))
+    clipped = np.any(windows[:, int(around_first) :], axis=1)
     if around_first:
         clipped |= in_order[0]
     return clipped[np.arange(n_primitives) * stride // step]
