@@ -23,7 +23,7 @@ from softshadow.gl.errors import GLError, fail
 from softshadow.gl.framebuffers import can_be_drawn_to
 from softshadow.gl.list_calls import Values
 from softshadow.gl.materials import follow_color
-from softshadow.gl.moved_draws import continues, draw_maybe_later
+from softshadow.gl.moved_draws import continue_draw, draw_maybe_later
 from softshadow.gl.pair_numbers import can_be_joined
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pipeline.geometry.separate import SEPARABLE, STRIPS, can_be_separated, pairs_mode_of, separate_indices
@@ -123,7 +123,7 @@ class ListPrimitive:
         latest = self.latest
         if latest is None or not (context.ready and latest.has_values_of(context) and can_be_drawn_to(context)):
             return False
-        if not continues(context, latest.before, latest.vertices, self.indices):
+        if not continue_draw(context, latest.before, latest.vertices, self.indices):
             return False
         context.vertex_buffer.active_sizes.update(self.sizes)
         return True

@@ -39,8 +39,7 @@ def draw_maybe_later(
     earlier = context.stream.late.earlier
     key = mode, pairs_mode, id(context.drawn_state), slots
     before = earlier.get(key)
-    if before is not None and _is_continued(context, before):
-        context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
+    if before is not None and continue_draw(context, before, vertices, indices):
         return before
     command = context.draw_prepared(mode, vertices, indices, pairs_mode)
     if _may_be_continued(context, command):
@@ -50,10 +49,10 @@ def draw_maybe_later(
     return None
 
 
-def continues(context: Context, before: Draw, vertices: Vertices, indices: np.ndarray | None) -> bool:
-    """Draw primitives later that continue an earlier draw; return False, and do nothing, if they do not.
+def continue_draw(context: Context, before: Draw, vertices: Vertices, indices: np.ndarray | None) -> bool:
+    """Let primitives wait that continue an earlier draw; return False, and do nothing, if they do not.
 
-    Nothing is collected, and the arrays are of the same attributes.
+    Nothing is collected, and the vertices have arrays of the same attributes.
     """
     if context.drawn_state is not before.state or not _is_continued(context, before):
         return False
@@ -85,4 +84,4 @@ def is_unmarked(context: Context) -> bool:
     return not context.labels and context.origin is None and context.stream.gate is None
 
 
-__all__ = ["continues", "draw_maybe_later", "is_unmarked"]
+__all__ = ["continue_draw", "draw_maybe_later", "is_unmarked"]

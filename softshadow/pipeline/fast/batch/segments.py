@@ -22,7 +22,7 @@ from softshadow.pipeline.raster.coverage import extent
 from softshadow.pipeline.records import Geometry, Setup
 from softshadow.programs import Program
 
-COUNTED = 1 << 12  # triangles of a batch: of more, which are drawn alone in any case, nobody needs the fragments here
+COUNTED = 1 << 12  # triangles of a batch: more are drawn alone in any case (`choose.MANY_TRIANGLES`)
 
 
 def geometry_key(run: Run, setting: Setting) -> Hashable:
