@@ -122,6 +122,14 @@ class Author(RandomAuthor):
 class CalmAuthor(Author):
     """Writes programs of which most calls of lists differ from the last one in the modelview matrix only."""
 
+    def a_list(self, name: int) -> list[Call]:
+        if self.chance(0.6):
+            return super().a_list(name)
+        mode = self.one_of(MODES)
+        enabled = [("glEnableClientState", (state,)) for state in STATES if self.chance(0.4)]
+        draw = ("glDrawArrays", (mode, 0, 4))
+        return [*self.pointers(), *enabled, ("glNewList", (name, gl.GL_COMPILE)), draw, ("glEndList", ())]
+
     def moved(self) -> list[Call]:
         return super().moved() if self.chance(0.1) else [("glTranslatef", tuple(self.numbers(3)))]
 

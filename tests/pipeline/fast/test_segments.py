@@ -10,6 +10,7 @@ from softshadow import gl
 from softshadow.context import Context
 from softshadow.pipeline import choose, set_threads, threads, use_short_cuts
 from softshadow.pipeline.fast import forward, segment_groups
+from softshadow.pipeline.fast.batch import segments
 
 SIZE = 72
 seeds = st.integers(0, 2**32 - 1)
@@ -161,6 +162,10 @@ def test_a_line_and_a_point_are_in_one_group_with_polygons(groups):
         expected = polygons_lines_and_points()
     assert same_window(polygons_lines_and_points(), expected)
     assert groups == [(4, 8)]
+
+
+def test_batches_that_may_join_others_are_counted():
+    assert segments.COUNTED == choose.MANY_TRIANGLES
 
 
 def test_draws_of_several_queries_are_in_one_group(groups):
