@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
-from itertools import groupby
 from typing import Any, Protocol
 
 from softshadow.context.late_draws import LateCommands, LateDraw, LateDraws, MovedDraw
@@ -144,18 +142,17 @@ class CommandStream:
     def draw_late(self) -> None:
         """Carry out and record the draws that are late."""
         for late in self.late.take():
-            self._carry_out_parts(late.draws, partial(self._add_late, late), partial(self._record_late, late))
+            if not self._let_wait(late):
+                for command in late:
+                    self.carry_out(command)
+            elif self.frame.extend_late(late, late.parts):
+                self.frame.shorten(self.objects_after_all())
 
-    def _add_late(self, late: LateCommands, first: int) -> int:
-        return self._queue.add_in_turns(late.draws[first:], late.keys[first:])
-
-    def _record_late(self, late: LateCommands, first: int, end: int) -> bool:
-        is_long = False
-        for are_pairs, same in groupby(range(first, end), late.are_pairs.__getitem__):
-            places = list(same)
-            draws = late.draws[places[0] : places[-1] + 1]
-            is_long = self.frame.extend(draws, late.memory if are_pairs else None)
-        return is_long
+    def _let_wait(self, late: LateCommands) -> bool:
+        """Let late draws wait in the queue; return False, and do nothing, where each must be looked at."""
+        if self.text is not None or self.gate is not None or late.parts[0][0].state.lines.stippled:
+            return False
+        return self._queue.add_in_turns(late.parts, late.turns)
 
     def carry_out_waiting(self) -> None:
         """Carry out the draws that wait in the queue."""

@@ -339,13 +339,13 @@ class Context(CurrentValues, Precision):
         """Mark the end of a step in the recording."""
         self.flush()
         frame = self.stream.frame
-        frame.steps.append((title, len(frame.commands)))
+        frame.steps.append((title, frame.n_commands))
 
     def begin_step(self, title: str) -> None:
         """Begin a step, which ends where the next one begins; what was drawn before the first one is a step, too."""
         if self.open_step is not None:
             self.end_step(self.open_step)
-        elif self.frame.commands:
+        elif self.frame.n_commands:
             self.end_step(f"before {title!r}")
         self.open_step = title
 

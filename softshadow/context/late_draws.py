@@ -7,15 +7,16 @@ such draws wait with their numbers or arrays until something else is drawn, or s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from itertools import chain, groupby, repeat
-from typing import NamedTuple, Protocol
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from itertools import chain, groupby, islice
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import Precision
 from softshadow.context.primitive import Primitive
+from softshadow.pipeline.alike_draws import AlikeDraws, AlikeVertices, Attribute, ConstantTexcoords
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
@@ -25,13 +26,6 @@ MOVED_NUMBERS = 16  # as which a draw counts whose arrays have been made
 MOST_FORMS = 1024  # as many as there are states that are found again
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
-
-
-class ConstantTexcoords(Protocol):
-    """Values of the texture coordinates of all units."""
-
-    def rows(self, count: int) -> tuple[np.ndarray, ...]:
-        """Return `count` equal rows of each unit."""
 
 
 class LateForm(NamedTuple):
@@ -69,7 +63,8 @@ class LateDraw(NamedTuple):
 
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
-        return _made([(self, vertices)])[0]
+        (draw,) = moved_draws(self.form.like, [(vertices, None, self.modelview, self.modelview_kind)])
+        return separated(draw, self.counts) if self.counts else draw
 
 
 class MovedDraw(NamedTuple):
@@ -85,24 +80,32 @@ class MovedDraw(NamedTuple):
     modelview_kind: int
 
 
-def _made(alike: Sequence[tuple[LateDraw, Vertices]]) -> list[Draw]:
-    """Return the draws with their arrays; they are like the same one."""
-    moved = [(vertices, None, draw.modelview, draw.modelview_kind) for draw, vertices in alike]
-    made = moved_draws(alike[0][0].form.like, moved)
-    return [separated(each, draw.counts) if draw.counts else each for each, (draw, _) in zip(made, alike, strict=True)]
+class LateCommands(Sequence[Draw]):
+    """Late draws in their order, which are made when someone looks at them.
 
-
-class LateCommands(NamedTuple):
-    """Late draws, of which those with equal `keys` differ in vertices, indices and modelview matrix only.
-
-    Vertices of equal keys have arrays of the same attributes. `are_pairs` says which draws are those of pairs: the
-    arrays of these are parts of `memory`.
+    Attributes
+    ----------
+    parts : list             each of draws that differ from each other in vertices, indices and modelview matrix only:
+                             `AlikeDraws` or a list. The vertices of each part have arrays of the same attributes.
+    turns : list             (number of a part, number of its next draws), in drawing order
     """
 
-    draws: list[Draw]
-    keys: Sequence[Hashable]
-    are_pairs: Sequence[bool]
-    memory: list[np.ndarray]
+    def __init__(self, parts: Sequence[Sequence[Draw]], turns: Sequence[tuple[int, int]]) -> None:
+        self.parts, self.turns = parts, turns
+
+    def __len__(self) -> int:
+        return sum([count for _, count in self.turns])
+
+    def __iter__(self) -> Iterator[Draw]:
+        parts = list(map(iter, self.parts))
+        return chain.from_iterable(islice(parts[number], count) for number, count in self.turns)
+
+    @overload
+    def __getitem__(self, index: int) -> Draw: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Draw]: ...
+    def __getitem__(self, index: Any) -> Any:
+        return list(self)[index]
 
 
 def _is_stippled(draw: LateDraw | MovedDraw) -> bool:
@@ -151,74 +154,69 @@ class LateDraws:
             yield self._commands_of(list(same))
 
     def _commands_of(self, draws: Sequence[LateDraw | MovedDraw]) -> LateCommands:
-        """Return draws with their arrays; those that are alike are made together."""
-        memory: list[np.ndarray] = []
-        keys: list[Hashable] = []
-        pairs: dict[Hashable, list[LateDraw]] = {}
-        moved: dict[Hashable, list[MovedDraw]] = {}
-        for draw in draws:
-            if isinstance(draw, LateDraw):
-                key: Hashable = id(draw.form.like), draw.form.columns
-                pairs.setdefault(key, []).append(draw)
-            else:
-                key = id(draw.like)
-                moved.setdefault(key, []).append(draw)
-            keys.append(key)
-        of_pairs = [draw for same in pairs.values() for draw in same]
-        vertices = self._vertices_of(of_pairs, memory)
-        made = {key: iter(_made([(draw, next(vertices)) for draw in same])) for key, same in pairs.items()}
-        for key, alike in moved.items():
-            made[key] = iter(moved_draws(alike[0].like, [draw[1:] for draw in alike]))
-        return LateCommands([next(made[key]) for key in keys], keys, [key in pairs for key in keys], memory)
-
-    def _vertices_of(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterator[Vertices]:
-        """Return the vertices of each of the draws; add their memory."""
-        forms: dict[Hashable, list[LateDraw]] = {}
-        keys = [(len(draw.primitive.positions), draw.form.columns, id(draw.form.texcoords)) for draw in draws]
+        """Return draws, of which those that are alike are a part."""
+        keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
+        numbers: dict[int, int] = {}
+        alike: list[list[LateDraw | MovedDraw]] = []
         for key, draw in zip(keys, draws, strict=True):
-            forms.setdefault(key, []).append(draw)
-        vertices = {key: iter(self._vertices(same, memory)) for key, same in forms.items()}
-        return (next(vertices[key]) for key in keys)
+            number = numbers.setdefault(key, len(alike))
+            if number == len(alike):
+                alike.append([])
+            alike[number].append(draw)
+        turns = [(numbers[key], len(list(same))) for key, same in groupby(keys)]
+        return LateCommands([self._part(same) for same in alike], turns)
 
-    def _vertices(self, draws: Sequence[LateDraw], memory: list[np.ndarray]) -> Iterable[Vertices]:
-        """Return the vertices of draws with as many vertices and the same attributes; add their memory."""
-        form, n_draws = draws[0].form, len(draws)
-        count = len(draws[0].primitive.positions) // 4
-        names = ["position", *[name for name in form.columns if name != "normal"]]
-        fours, threes = self._rows(draws)
-        memory += [base for rows in (fours, threes) if (base := rows.base) is not None and base.size]
-        by_draw = fours.reshape(n_draws, len(names), count, 4)
-        columns: dict[str, Iterable[np.ndarray]] = {name: by_draw[:, place] for place, name in enumerate(names)}
-        if "normal" in form.columns:
-            columns["normal"] = threes.reshape(n_draws, count, 3)
-        else:
-            columns["normal"] = self._constants([draw.normal for draw in draws], count)
-        if "color" not in columns:
-            columns["color"] = self._constants([draw.color for draw in draws], count)
-        texcoords: Iterable[tuple[np.ndarray, ...]] = repeat(form.texcoords.rows(count))
-        units = [(SLOTS[name] - TEXCOORD, columns[name]) for name in names if name.startswith("texcoord")]
-        for unit, column in units:
-            texcoords = [(*each[:unit], rows, *each[unit + 1 :]) for each, rows in zip(texcoords, column, strict=False)]
-        return map(Vertices, columns["position"], columns["color"], columns["normal"], texcoords)
+    def _part(self, draws: Sequence[LateDraw | MovedDraw]) -> Sequence[Draw]:
+        """Return draws that are alike."""
+        moved = [draw for draw in draws if isinstance(draw, MovedDraw)]
+        if moved:
+            return moved_draws(moved[0].like, [draw[1:] for draw in moved])
+        return self._part_of_pairs([draw for draw in draws if isinstance(draw, LateDraw)])
 
-    def _constants(self, values: Sequence[tuple[float, ...]], count: int) -> Iterable[np.ndarray]:
-        """Return read-only views of `count` equal rows for each value."""
+    def _part_of_pairs(self, draws: Sequence[LateDraw]) -> Sequence[Draw]:
+        """Return draws of pairs that are alike."""
+        modelviews, kinds = [draw.modelview for draw in draws], [draw.modelview_kind for draw in draws]
+        part = AlikeDraws(draws[0].form.like, self._vertices(draws), modelviews, kinds)
+        counts = [draw.counts for draw in draws]
+        if not any(counts):
+            return part
+        return [separated(each, own) if own else each for each, own in zip(part, counts, strict=True)]
+
+    def _vertices(self, draws: Sequence[LateDraw]) -> AlikeVertices:
+        """Return the vertices of draws with the same attributes."""
+        form, primitives = draws[0].form, [draw.primitive for draw in draws]
+        numbers = self._precision.numbers()
+        for primitive in primitives:
+            numbers.extend(primitive.positions)
+        units = {
+            SLOTS[name] - TEXCOORD: self._rows(primitives, name, 4)
+            for name in form.columns
+            if name.startswith("texcoord")
+        }
+        return AlikeVertices(
+            [len(primitive.positions) // 4 for primitive in primitives],
+            self._precision.rows(numbers, 4),
+            self._attribute(draws, "color"),
+            self._attribute(draws, "normal"),
+            form.texcoords,
+            units,
+        )
+
+    def _attribute(self, draws: Sequence[LateDraw], name: str) -> Attribute:
+        """Return the colours or normals of draws."""
+        values = [draw.color if name == "color" else draw.normal for draw in draws]
+        width = len(values[0])
+        if name in draws[0].form.columns:
+            return Attribute(self._rows([draw.primitive for draw in draws], name, width), False)
         if len(set(map(id, values))) == 1:
-            return repeat(self._precision.constant(values[0], count))
-        numbers, width = self._precision.numbers(), len(values[0])
+            return Attribute(self._precision.constant(values[0], 1), True)
+        numbers = self._precision.numbers()
         numbers.extend(chain.from_iterable(values))
-        rows = self._precision.rows(numbers, width)
-        return np.broadcast_to(rows[:, np.newaxis], (len(values), count, width))
+        return Attribute(self._precision.rows(numbers, width), True)
 
-    def _rows(self, draws: Sequence[LateDraw]) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rows of four numbers, and those of three.
-
-        They are the positions of each draw, and behind them what its vertices carry, in the order of its columns.
-        """
-        fours, threes = self._precision.numbers(), self._precision.numbers()
-        for draw in draws:
-            primitive = draw.primitive
-            fours.extend(primitive.positions)
-            for name in draw.form.columns:
-                (threes if name == "normal" else fours).extend(primitive.components(name, ()))
-        return self._precision.rows(fours, 4), self._precision.rows(threes, 3)
+    def _rows(self, primitives: Sequence[Primitive], name: str, width: int) -> np.ndarray:
+        """Return an attribute of all vertices of several primitives, each of which has changes of it."""
+        numbers = self._precision.numbers()
+        for primitive in primitives:
+            numbers.extend(primitive.components(name, ()))
+        return self._precision.rows(numbers, width)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ import numpy as np
 from softshadow.errors import HistoryCut
 from softshadow.framebuffer import Framebuffer, Storage, default_framebuffer
 from softshadow.image import Image
+from softshadow.pipeline.alike_draws import AlikeDraws
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
 
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
@@ -55,15 +57,17 @@ class Contents:
                 if array is not None:
                     self._add_array(array)
 
-    def add_draws(self, draws: Sequence[Draw], memory: Sequence[np.ndarray]) -> None:
-        """Count draws whose arrays, but for the indices, are parts of a memory."""
-        self.commands += len(draws)
-        self.new_bytes += COMMAND_BYTES * len(draws)
-        for array in memory:
-            self._add_memory(array)
-        for draw in draws:
-            if draw.indices is not None and id(draw.indices) not in self._sizes:
-                self._add_array(draw.indices)
+    def add_late(self, parts: Sequence[Sequence[Draw]]) -> None:
+        """Count draws, some of which are not made yet."""
+        for part in parts:
+            if isinstance(part, AlikeDraws):
+                self.commands += len(part)
+                self.new_bytes += COMMAND_BYTES * len(part)
+                for array in part.vertices.arrays:
+                    self._add_array(array)
+            else:
+                for draw in part:
+                    self.add(draw)
 
     def _add_vertices(self, vertices: Vertices) -> None:
         sizes, texcoords = self._sizes, vertices.texcoords
@@ -99,6 +103,25 @@ class Contents:
                 self.new_bytes += size
 
 
+class RecordedCommands:
+    """The commands of a frame: the draws among them that are not made yet are made when someone looks at the list."""
+
+    def __get__(self, frame: Frame | None, kind: type) -> Sequence[Command]:
+        if frame is None:
+            return ()  # the default of the field
+        made, following = frame.made, frame.following
+        if following:
+            made.extend(chain.from_iterable(following))
+            following.clear()
+        return made
+
+    def __set__(self, frame: Frame, commands: Sequence[Command]) -> None:
+        frame.made, frame.following = list(commands), []
+
+
+ALL_COMMANDS: Any = RecordedCommands()
+
+
 @dataclass(repr=False)
 class Frame:
     """The recording: the parameters of the window, every command, and where each step ends.
@@ -114,7 +137,7 @@ class Frame:
     depth_format: str
     stencil_bits: int
     precision: str
-    commands: list[Command] = field(default_factory=list)
+    commands: list[Command] = ALL_COMMANDS
     steps: list[tuple[str, int]] = field(default_factory=list)
     start: Storage | None = None
     dropped: int = 0
@@ -124,9 +147,11 @@ class Frame:
 
     def __repr__(self) -> str:
         width, height = self.size
-        return f"Frame({width} x {height}, {len(self.commands)} commands, {len(self.steps)} steps)"
+        return f"Frame({width} x {height}, {self.n_commands} commands, {len(self.steps)} steps)"
 
     def __post_init__(self) -> None:
+        self.made: list[Command]
+        self.following: list[Sequence[Command]]  # behind those that are made
         self._older, self._newer = Contents(), Contents()  # before and after the mark
         self._uncounted: list[Draw] = []  # draws that `_newer` does not contain yet
         self._most_bytes = 0  # that it has at most with them
@@ -138,26 +163,40 @@ class Frame:
         self._count()
         return self._older.bytes + self._newer.new_bytes
 
+    @property
+    def n_commands(self) -> int:
+        """The number of commands."""
+        return len(self.made) + sum(map(len, self.following))
+
+    def clear(self) -> None:
+        """Forget all commands."""
+        self.made.clear()
+        self.following.clear()
+
     def append(self, command: Command) -> bool:
         """Record a command that is carried out; return whether `shorten` must be called when all of them have been."""
-        self.commands.append(command)
+        if self.following:
+            self.following.append((command,))
+        else:
+            self.made.append(command)
         return self.history_bytes is not None and self._note(command)
 
-    def extend(self, draws: Sequence[Draw], memory: Sequence[np.ndarray] | None = None) -> bool:
-        """Record several draws; return what `append` returns.
-
-        If their arrays, but for the indices, are parts of `memory`, they are not counted one by one.
-        """
-        self.commands += draws
-        if self.history_bytes is None:
-            return False
-        if memory is None:
-            is_long = False
+    def extend(self, draws: Sequence[Draw]) -> bool:
+        """Record several draws; return what `append` returns."""
+        self.following.append(draws)
+        is_long = False
+        if self.history_bytes is not None:
             for draw in draws:
                 is_long = self._note(draw)
-            return is_long
+        return is_long
+
+    def extend_late(self, draws: Sequence[Draw], parts: Sequence[Sequence[Draw]]) -> bool:
+        """Record draws that are made when someone looks at them; return what `append` returns. `parts` has all."""
+        self.following.append(draws)
+        if self.history_bytes is None:
+            return False
         before = self._newer.new_bytes
-        self._newer.add_draws(draws, memory)
+        self._newer.add_late(parts)
         self._most_bytes += self._newer.new_bytes - before
         return self._is_long()
 
@@ -200,12 +239,12 @@ class Frame:
             self.dropped += count
             self.dropped_steps += len(self.steps) - len(steps)
             self.steps[:] = steps
-        self._mark = len(self.commands), copy_storage(storage)
+        self._mark = self.n_commands, copy_storage(storage)
         self._older, self._newer, self._most_bytes = self._newer, Contents(self._newer), 0
 
     def begin(self, storage: Storage) -> None:
         """Begin with a copy of a storage: what has been recorded is its past, and no part of the recording."""
-        self.commands.clear()
+        self.clear()
         self.steps.clear()
         self.start, self.dropped, self.dropped_steps = copy_storage(storage), 0, 0
         self._older, self._newer, self._mark = Contents(), Contents(), None
@@ -231,7 +270,7 @@ class Frame:
         bound = "" if self.history_bytes is None else f" (history_mb={self.history_bytes / (1 << 20):g})"
         steps = f" and {self.dropped_steps} steps" if self.dropped_steps else ""
         return (
-            f"the recording keeps the last {len(self.commands)} commands{bound}: {self.dropped} earlier commands"
+            f"the recording keeps the last {self.n_commands} commands{bound}: {self.dropped} earlier commands"
             f"{steps} are not in it; with gl.create_context(..., history_mb=None) it keeps all"
         )
 

@@ -9,11 +9,12 @@ of the window for each, one with many samples of a light accumulates the picture
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
-from itertools import groupby, takewhile
+from collections.abc import Sequence
+from itertools import takewhile
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Storage
+from softshadow.pipeline.alike_draws import DrawList, vertex_counts
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
     Accumulate,
@@ -37,7 +38,7 @@ from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
-    from softshadow.pipeline.fast.batch.admission import WORTH_COMPARING, continues_moved, least_compared
+    from softshadow.pipeline.fast.batch.admission import continue_moved, continues_moved, least_compared
     from softshadow.pipeline.fast.map_visibility_kernel import VISIBILITY_KERNEL
 except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
@@ -62,7 +63,7 @@ class DrawQueue:
         self._kinds = Kinds(storage, compiles)
         self._kind: Kind | None = None  # of the last draw
         self._like: Draw  # a draw of this kind
-        self._batches: dict[int, list[Draw]] = {}  # by their numbers
+        self._batches: dict[int, DrawList] = {}  # by their numbers
         self._segments: list[Segment | Command] = []  # in drawing order
         self._segment: Segment | None = None  # the last one, if only draws follow it
         self._queries: set[int] = set()  # that count fragments of these; 0 if some are not counted
@@ -94,20 +95,8 @@ class DrawQueue:
 
     def _let_wait(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> None:
         """Let draws of a kind and of one state wait, with so many vertices."""
-        batch = self._batches.get(kind.batch)
-        if batch is None:
-            batch = self._batches[kind.batch] = []
-        first, state = len(batch), commands[0].state
-        batch += commands
-        last, query = self._segment, self._storage.active_query
-        if last is not None and last.kind is kind and last.continues_with(state, query):
-            last.end = len(batch)
-        else:
-            self._segment = Segment(kind, commands[0], first, len(batch), query)
-            self._segments.append(self._segment)
-            self._queries.add(query)
-            self._textures.update(kind.names)
-            self._framebuffers.add(state.draw_framebuffer)
+        first = self._place_in_batch(kind, commands)
+        self._add_segment(kind, commands[0], first, first + len(commands))
         self._n_commands += len(commands)
         self._n_vertices += n_vertices
 
@@ -127,51 +116,67 @@ class DrawQueue:
         others = list(takewhile(continues_moved, commands[1:]))
         return 1 + len(others) if self._add_others(commands[0], others) else 1
 
-    def add_in_turns(self, commands: Sequence[Draw], keys: Sequence[Hashable]) -> int:
-        """Let draws wait, of which those with equal keys differ in vertices and modelview matrix only, as `add_like`.
+    def add_in_turns(self, parts: Sequence[Sequence[Draw]], turns: Sequence[tuple[int, int]]) -> bool:
+        """Let small draws wait; return False, and do nothing, if some must be carried out at once, or are large.
 
-        A program that changes the mode or the state between small draws goes back and forth between a few kinds.
+        The draws of each part differ in vertices and modelview matrix only, as those of `add_like`. `turns` are numbers
+        of parts, and how many of its next draws come there: a program that changes the mode or the state between small
+        draws goes back and forth between a few kinds.
         """
-        if len(set(keys)) == 1:
-            return self.add_like(commands)
-        counts = [len(command.vertices.position) for command in commands]
-        can_continue = list(map(continues_moved, commands))
-        kinds: dict[Hashable, Kind] = {}
-        first = 0
-        for key, same in groupby(keys):
-            end = first + len(list(same))
-            own = counts[first:end]
-            is_known = key in kinds and max(own) < WORTH_COMPARING and all(can_continue[first:end])
-            if is_known and self._adds_few(kinds[key], commands[first:end], sum(own)):
-                first = end
-            while first < end:
-                n_added = self.add_like(commands[first:end])
-                if not n_added:
-                    return first
-                first += n_added
-            if self._kind is not None:
-                kinds[key] = self._kind
-        return first
+        kinds = [self._kinds.of(part[0]) if continue_moved(part) else None for part in parts]
+        known = [kind for kind in kinds if kind is not None]
+        if len(known) < len(parts):
+            return False
+        n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
+        is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        if is_full or not (self._are_small or all(kind is self._kind for kind in known)):
+            self.carry_out()
+        are_apart = len({kind.batch for kind in known}) == len(parts)
+        nexts = [self._place_in_batch(kind, part) if are_apart else 0 for kind, part in zip(known, parts, strict=True)]
+        for number, count in turns:
+            kind, part, first = known[number], parts[number], nexts[number]
+            place = first if are_apart else self._place_in_batch(kind, part[first : first + count])
+            self._add_segment(kind, part[0], place, place + count)
+            nexts[number] = first + count
+        self._n_commands += n_draws
+        self._n_vertices += n_vertices
+        last, _ = turns[-1]
+        self._kind, self._like = known[last], parts[last][0]
+        if self._n_commands == MOST_DRAWS:
+            self.carry_out()
+        return True
+
+    def _place_in_batch(self, kind: Kind, commands: Sequence[Draw]) -> int:
+        """Append draws to the batch of a kind; return the place of the first one."""
+        batch = self._batches.get(kind.batch)
+        if batch is None:
+            batch = self._batches[kind.batch] = DrawList()
+        place = len(batch)
+        batch.add(commands)
+        return place
+
+    def _add_segment(self, kind: Kind, command: Draw, first: int, end: int) -> None:
+        """Append draws of a kind and of one state, which have these places in their batch; `command` is one of them."""
+        state, last, query = command.state, self._segment, self._storage.active_query
+        if last is not None and last.kind is kind and last.end == first and last.continues_with(state, query):
+            last.end = end
+        else:
+            self._segment = Segment(kind, command, first, end, query)
+            self._segments.append(self._segment)
+            self._queries.add(query)
+            self._textures.update(kind.names)
+            self._framebuffers.add(state.draw_framebuffer)
 
     def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
         """Let draws wait that continue the first one, the last that waits; do nothing if they are many or large."""
         if not others:
             return True
         counts = [len(command.vertices.position) for command in (first, *others)]
-        if max(counts) >= least_compared(first) or self._kind is None:
+        n_vertices = sum(counts) - counts[0]
+        is_full = self._n_commands + len(others) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        if is_full or max(counts) >= least_compared(first) or self._kind is None:
             return False
-        return self._adds_few(self._kind, others, sum(counts) - counts[0])
-
-    def _adds_few(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> bool:
-        """Let small draws of a kind wait that are alike; do nothing and return False if they are many, or others large.
-
-        Those that wait and are large are of the same kind.
-        """
-        is_full = self._n_commands + len(commands) >= MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        if is_full or not (self._are_small or kind is self._kind):
-            return False
-        self._let_wait(kind, commands, n_vertices)
-        self._kind, self._like = kind, commands[0]
+        self._let_wait(self._kind, others, n_vertices)
         return True
 
     def add_other(self, command: Command, only_cells: bool) -> None:

@@ -108,7 +108,7 @@ class Player:
         for traced in self._contexts.values():
             make_current(traced.context)
             traced.context.flush()
-            traced.context.frame.commands.clear()
+            traced.context.frame.clear()
             if len(self._frames) - self._index == 2:  # the next one is the chosen one
                 traced.unseen.carry_out()
         self._active = None

@@ -83,7 +83,7 @@ class OwnSession:
             return work()
         finally:
             set_threads(threads_before)
-            self._context.frame.commands.clear()
+            self._context.frame.clear()
             clear_visibility_cache(self._context.storage)
             self._context.storage.geometry_cache = None
             make_current(context)

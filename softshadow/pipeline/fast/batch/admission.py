@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 
 from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
+from softshadow.pipeline.alike_draws import AlikeDraws, vertex_counts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, WIDTH_OF_POLYGONS, width_of
 from softshadow.pipeline.fast.batch.vertices import GENERATED
@@ -100,6 +102,17 @@ def continues_moved(command: Draw) -> bool:
     if command.modelview_kind & UNKNOWN or command.vertices.edges is not None:
         return False
     return not leaves_out_triangles(command)
+
+
+def continue_moved(draws: Sequence[Draw]) -> bool:
+    """Return whether draws are small, and each continues a run of those before, as for `continues_moved`."""
+    if isinstance(draws, AlikeDraws):
+        like, counts = draws.like, draws.vertices.counts
+        if like.mode == gl.GL_TRIANGLES and max(map(start_of_last_nine, set(counts))) >= 0:
+            if any(map(leaves_out_triangles, draws)):
+                return False
+        return max(counts) < least_compared(like)
+    return all(map(continues_moved, draws)) and max(vertex_counts(draws)) < least_compared(draws[0])
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:

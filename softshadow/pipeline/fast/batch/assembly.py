@@ -4,7 +4,10 @@ The patterns are those of `geometry.assembly`; how quads are cut depends on the 
 (`mesa.segments`).
 """
 
+from collections.abc import Sequence
+
 from softshadow.jit import kernel
+from softshadow.pipeline.alike_draws import AlikeDraws, parts_of
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.vertices import (
     ACROSS,
@@ -60,6 +63,17 @@ def primitive_count(mode: int, n: int) -> int:
 def primitives_of(draw: Draw) -> int:
     """Return the number of triangles, lines or points that a draw makes, before clipping."""
     return primitive_count(draw.mode, len(draw.vertices.position if draw.indices is None else draw.indices))
+
+
+def primitive_counts(draws: Sequence[Draw]) -> list[int]:
+    """Return what `primitives_of` returns of each draw."""
+    counts: list[int] = []
+    for part in parts_of(draws):
+        if isinstance(part, AlikeDraws):
+            counts += [primitive_count(part.like.mode, n) for n in part.vertices.counts]
+        else:
+            counts += map(primitives_of, part)
+    return counts
 
 
 @kernel

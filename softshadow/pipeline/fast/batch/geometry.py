@@ -15,6 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
+from softshadow.pipeline.alike_draws import vertex_counts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.admission import least_compared
 from softshadow.pipeline.fast.batch.assembly import (
@@ -23,6 +24,7 @@ from softshadow.pipeline.fast.batch.assembly import (
     assemble_draws,
     assemble_lines_and_points,
     let_first_provoke,
+    primitive_counts,
     primitives_of,
     width_of,
 )
@@ -127,7 +129,7 @@ def geometry_of(
         known = None
     if known and (known.cut is not None or not run.writes_color):
         return _batch(_repeated_geometry(run, setting, draws, views, planes, target, known))
-    table, most = table_of(run, draws, views, planes), sum(map(primitives_of, draws))
+    table, most = table_of(run, draws, views, planes), sum(primitive_counts(draws))
     n = len(table.positions)
     command, width, outputs = run.command, width_of(run.command.mode), empty_outputs(n, table, len(setting.flat))
     inputs = inputs_of(table)
@@ -152,7 +154,7 @@ def geometry_of(
         if is_polygons:
             n_triangles = assemble_draws(table.numbers, table.indices, outputs.codes, triangles, provoking)
             if is_first:
-                counts = np.array([primitives_of(draw) for draw in draws])
+                counts = np.array(primitive_counts(draws))
                 let_first_provoke(table.numbers, counts, outputs.codes, triangles, provoking)
     clip, codes, columns = outputs.clip, outputs.codes, outputs.columns
     if is_polygons:
@@ -286,7 +288,7 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     """Return whether a run is large enough to be compared with recent ones: of large draws of triangles."""
     if width_of(draws[0].mode) != WIDTH_OF_POLYGONS or len(draws) > MOST_COMPARED:
         return False
-    return sum([len(draw.vertices.position) for draw in draws]) >= sum(map(least_compared, draws))
+    return sum(vertex_counts(draws)) >= sum(map(least_compared, draws))
 
 
 def _key_of(

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import attrgetter
 
 import numpy as np
 
 from softshadow import tokens as gl
+from softshadow.pipeline.alike_draws import of_each, vertex_counts
 from softshadow.pipeline.commands import NO_UNIFORMS, Draw
 from softshadow.pipeline.fast.batch.admission import PLAIN_POINTS
-from softshadow.pipeline.fast.batch.assembly import primitives_of
+from softshadow.pipeline.fast.batch.assembly import primitive_counts
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.table import REAL
 from softshadow.pipeline.geometry.assembly import begins_stipple, pieces_begin_stipple
@@ -25,18 +27,18 @@ def sizes_of_points(run: Run, draws: Sequence[Draw]) -> np.ndarray | None:
         sizes = [point_sizes(draw.state, vertex_inputs(draw, NO_UNIFORMS)) for draw in draws]
         return np.concatenate([each for each in sizes if each is not None])
     polygon = run.state.polygon
-    if all(draw.state.polygon is polygon for draw in draws):
+    states = of_each(draws, attrgetter("state"))
+    if all(state.polygon is polygon for state in states):
         return None
-    counts = [len(draw.vertices.position) for draw in draws]
-    return np.repeat(np.array([size_of_points(draw.state) for draw in draws], REAL), counts)
+    return np.repeat(np.array(list(map(size_of_points, states)), REAL), vertex_counts(draws))
 
 
 def widths_of_lines(run: Run, draws: Sequence[Draw], source: np.ndarray) -> np.ndarray | None:
     """Return the widths (L,) of clipped lines where one is not that of the run, else None."""
-    widths = [draw.state.polygon.line_width for draw in draws]
+    widths = of_each(draws, attrgetter("state.polygon.line_width"))
     if set(widths) == {run.state.polygon.line_width}:
         return None
-    return np.repeat(np.array(widths, np.float64), [primitives_of(draw) for draw in draws])[source]
+    return np.repeat(np.array(widths, np.float64), primitive_counts(draws))[source]
 
 
 def stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
@@ -44,7 +46,7 @@ def stipple_places(draws: Sequence[Draw], source: np.ndarray) -> np.ndarray:
 
     A strip or loop whose first line is clipped goes on where the draw before it ended.
     """
-    counts = [primitives_of(draw) for draw in draws]
+    counts = primitive_counts(draws)
     of_line = np.repeat(np.arange(len(draws)), counts)[source]
     firsts = (np.cumsum(counts) - counts)[of_line]
     separate = np.array([draw.mode == gl.GL_LINES for draw in draws])[of_line]
@@ -60,7 +62,7 @@ def stipple_of_polygons(
 
     codes (V,), triangles (T, 3): of all draws; source (T',): the triangle that each piece comes from.
     """
-    counts = [primitives_of(draw) for draw in draws]
+    counts = primitive_counts(draws)
     first = np.concatenate([begins_stipple(draw.mode, count) for draw, count in zip(draws, counts, strict=True)])
     of_piece = np.repeat(np.arange(len(draws)), counts)[source]
     before = np.array([draw.stipple_place for draw in draws], np.int32)[of_piece]

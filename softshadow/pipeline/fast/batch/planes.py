@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
 
+from softshadow.pipeline.alike_draws import of_each
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip_planes import NO_PLANES, enabled_planes, in_clip_space
 from softshadow.programs.inverse import inverse
@@ -25,7 +27,7 @@ class Planes(NamedTuple):
 
 def planes_of(draws: Sequence[Draw]) -> Planes:
     """Return the clip planes of draws; those with the same planes and projection share rows."""
-    groups = [draw.state.clip_planes for draw in draws]
+    groups = of_each(draws, attrgetter("state.clip_planes"))
     if not any(True in group.enabled for group in {id(group): group for group in groups}.values()):
         nothing = [0] * len(draws)
         return Planes(nothing, nothing, NO_PLANES)

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow.jit import kernel
+from softshadow.pipeline.alike_draws import vertex_counts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.geometry import Batch, Setting
 from softshadow.pipeline.fast.batch.run import Run, geometry_structure
@@ -73,7 +74,7 @@ def cut(batch: Batch, draws: Sequence[Draw], firsts: Sequence[int], settings: Se
     firsts : the first draw of each segment
     settings : of each segment: its program shades the fragments
     """
-    ends_of_draws = list(accumulate([len(draw.vertices.position) for draw in draws], initial=0))
+    ends_of_draws = list(accumulate(vertex_counts(draws), initial=0))
     starts = np.array([*map(ends_of_draws.__getitem__, firsts), ends_of_draws[-1]], np.int64)  # vertices
     geometry, triangles = batch.geometry, batch.geometry.triangles
     bounds, areas = np.empty(len(starts), np.int64), np.empty(len(firsts), np.int64)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -11,8 +12,10 @@ import numpy as np
 from softshadow.framebuffer import Framebuffer
 from softshadow.jit import read_only
 from softshadow.kernel_cache import KernelGroup
-from softshadow.pipeline.commands import Draw, Vertices
-from softshadow.pipeline.fast.batch import lighting
+from softshadow.pipeline.alike_draws import AlikeDraws, of_each, parts_of
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.fast.batch import attributes, lighting
+from softshadow.pipeline.fast.batch.attributes import REAL
 from softshadow.pipeline.fast.batch.planes import Planes
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.vertices import (
@@ -22,10 +25,12 @@ from softshadow.pipeline.fast.batch.vertices import (
     FLOATS,
     IN_STAGES,
     JOINED_STRIPS,
+    KIND,
     MODELVIEW,
     NORMAL,
     NUMBERS,
     PROJECTION,
+    START,
     UNIT_COLUMNS,
     UNIT_CONSTANT,
     UNIT_IS_IDENTITY,
@@ -38,7 +43,7 @@ from softshadow.pipeline.memory.scratch import scratch
 from softshadow.pipeline.mesa.provoking_vertex import first_provokes
 from softshadow.programs import reflectances
 from softshadow.programs.fixed_function import NO_COORDINATE, is_replaced
-from softshadow.state import BLACK, Lighting, MaterialState, Viewport
+from softshadow.state import Lighting, MaterialState, Viewport
 from softshadow.tokens import GL_QUAD_STRIP, GL_QUADS
 
 BATCH_KERNELS = KernelGroup("batch")
@@ -46,7 +51,6 @@ SIDES = ("front", "back")
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in SIDES)
 MATERIAL = tuple(field.name for field in fields(MaterialState))
 MOST_KNOWN = 1024  # states of which the numbers are kept
-REAL = np.dtype(np.float32)
 
 
 class Table(NamedTuple):
@@ -95,7 +99,7 @@ class Views(NamedTuple):
 
 def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
     """Return the viewport transforms of draws."""
-    viewports = [draw.state.viewport for draw in draws]
+    viewports = of_each(draws, attrgetter("state.viewport"))
     if len(set(map(id, viewports))) == 1:
         return Views([0] * len(draws), *_transform(viewports[0], target))
     distinct = {id(viewport): viewport for viewport in viewports}
@@ -121,17 +125,17 @@ def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.
 
 def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, reads_indices: bool = True) -> Table:
     """Return the draws of a run as arrays; without their indices if nobody reads them."""
-    arrays, vertices = run.arrays, [draw.vertices for draw in draws]
+    arrays, layout = run.arrays, run.layout
     rows = np.empty((len(draws), FLOATS), np.float32)
-    rows[:, MODELVIEW:PROJECTION] = _matrices([draw.modelview for draw in draws])
-    rows[:, PROJECTION:COLOR] = _matrices([draw.projection for draw in draws])
+    rows[:, MODELVIEW:PROJECTION] = _matrices(_modelviews(draws))
+    rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, attrgetter("projection")))
     if not arrays.color:
-        rows[:, COLOR:NORMAL] = _first_rows([each.color for each in vertices])
+        rows[:, COLOR:NORMAL] = attributes.constant_colors(draws)
     if not arrays.normal:
-        rows[:, NORMAL : NORMAL + 3] = _first_rows([each.normal for each in vertices])
+        rows[:, NORMAL : NORMAL + 3] = attributes.constant_normals(draws)
     numbers, lightings = _numbers(draws, run, views, planes)
     return Table(
-        run.layout,
+        layout,
         numbers,
         rows,
         _unit_rows(run, draws),
@@ -139,22 +143,25 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
         run.generated,
         run.planes,
         NO_PLANE_ROWS if planes.rows is NO_PLANES else read_only(planes.rows),
-        _joined([each.position for each in vertices], True),
-        _joined([each.color for each in vertices], arrays.color),
-        _joined([each.normal for each in vertices], arrays.normal and run.reads_normals),
-        _reflectances(draws, arrays.materials, run.layout.two_side),
-        _optional(vertices, "secondary", run.reads_secondaries, NO_ROWS, NO_SECONDARY),
-        _optional(vertices, "fog_coordinates", run.layout.fog == BY_COORDINATE, NO_COORDINATES, NO_FOG_COORDINATE),
-        _texcoords(run, vertices, int(numbers[-1, END])),
-        _joined([draw.indices for draw in draws if draw.indices is not None], reads_indices, NO_INDICES),
+        attributes.positions_of(draws),
+        attributes.colors_of(draws, arrays.color),
+        attributes.normals_of(draws, arrays.normal and run.reads_normals),
+        _reflectances(draws, arrays.materials, layout.two_side),
+        attributes.secondaries_of(draws) if run.reads_secondaries else attributes.NO_ROWS,
+        attributes.fog_coordinates_of(draws) if layout.fog == BY_COORDINATE else attributes.NO_COORDINATES,
+        attributes.texcoords_of(run, draws),
+        attributes.indices_of(draws) if reads_indices else attributes.NO_INDICES,
         views.scales,
         views.shifts,
     )
 
 
-def _first_rows(arrays: Sequence[np.ndarray]) -> np.ndarray:
-    """Return the first row of each array; one row if all are the same."""
-    return arrays[0][:1] if len(set(map(id, arrays))) == 1 else np.concatenate([array[:1] for array in arrays])
+def _modelviews(draws: Sequence[Draw]) -> list[np.ndarray]:
+    """Return the modelview matrix of each draw."""
+    matrices: list[np.ndarray] = []
+    for part in parts_of(draws):
+        matrices += part.modelviews if isinstance(part, AlikeDraws) else [draw.modelview for draw in part]
+    return matrices
 
 
 def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
@@ -164,36 +171,8 @@ def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
     return np.concatenate(matrices).reshape(-1, 16)
 
 
-NO_ROWS, NO_INDICES, NO_COORDINATES, NO_TEXCOORDS = map(
-    read_only, (np.empty((0, 4), REAL), np.empty(0, np.int32), np.empty(0, REAL), np.empty((0, 0, 4), REAL))
-)
 NO_PLANE_ROWS = read_only(NO_PLANES)
 NO_REFLECTANCES = [read_only(np.empty((0, n_sides * lighting.REFLECTANCES), REAL)) for n_sides in (1, 2)]
-NO_SECONDARY, NO_FOG_COORDINATE = np.array(BLACK, REAL), np.zeros((), REAL)
-
-
-def _joined(parts: list[np.ndarray], is_array: bool, nothing: np.ndarray = NO_ROWS) -> np.ndarray:
-    if not is_array or not parts:
-        return nothing
-    if len(parts) == 1:
-        flags = parts[0].flags
-        return parts[0] if flags.c_contiguous and not flags.writeable else read_only(np.ascontiguousarray(parts[0]))
-    joined = scratch((sum(map(len, parts)), *parts[0].shape[1:]), parts[0].dtype)
-    return read_only(np.concatenate(parts, out=joined))
-
-
-def _optional(
-    vertices: Sequence[Vertices], name: str, is_read: bool, nothing: np.ndarray, initial: np.ndarray
-) -> np.ndarray:
-    """Return the values of an attribute that not all vertices have, or `nothing` if no column depends on it."""
-    if not is_read:
-        return nothing
-    given = [getattr(each, name) for each in vertices]
-    rows = [
-        np.broadcast_to(initial, (len(each.position), *initial.shape)) if values is None else values
-        for each, values in zip(vertices, given, strict=True)
-    ]
-    return read_only(np.concatenate(rows, dtype=REAL))
 
 
 def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -> np.ndarray:
@@ -215,27 +194,55 @@ def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
-    reads_normals, last = run.reads_normals, draws[0].state.lighting
-    equal = last  # the latest one with the same rows as `last`
+    lightings = _Lightings(draws[0].state.lighting, run.reads_normals)
     across = IN_STAGES if run.unfilled else int(run.across)
     across_by_mode = {GL_QUADS: 1} if first_provokes(run.state) else {}
-    table: list[int] = []  # in the order of the columns
-    lightings, start, index_start = [last], 0, 0
-    for draw, view, first_plane, end_plane in zip(draws, views.of_draws, planes.firsts, planes.ends, strict=True):
-        indices, lights = draw.indices, draw.state.lighting
-        end, indexed = start + len(draw.vertices.position), indices is not None
-        index_end = index_start if indices is None else index_start + len(indices)
-        if lights is not equal and reads_normals:
-            if lights is not last and not _same_rows(lights, last):
-                last = lights
-                lightings.append(lights)
-            equal = lights
-        row = len(lightings) - 1
-        kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
-        mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
-        table += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view, first_plane, end_plane)
-        start, index_start = end, index_end
-    return np.array(table, np.int64).reshape(-1, NUMBERS), lightings
+    tables: list[np.ndarray] = []
+    place = start = index_start = 0
+    for part in parts_of(draws):
+        first, place = place, place + len(part)
+        if isinstance(part, AlikeDraws):
+            mode, row = part.like.mode, lightings.row_of(part.like.state.lighting)
+            table = np.empty((len(part), NUMBERS), np.int64)
+            table[:] = (
+                0, 0, mode, index_start, index_start, 0, 0, row, across or across_by_mode.get(mode, 0),
+                views.of_draws[first], planes.firsts[first], planes.ends[first],
+            )  # fmt: skip
+            table[:, KIND] = part.kinds
+            table[:, END] = np.cumsum(part.vertices.counts) + start
+            table[:, START] = table[:, END] - part.vertices.counts
+            start = int(table[-1, END])
+            tables.append(table)
+            continue
+        numbers: list[int] = []  # in the order of the columns
+        latest, row = None, 0
+        own = views.of_draws[first:place], planes.firsts[first:place], planes.ends[first:place]
+        for draw, view, first_plane, end_plane in zip(part, *own, strict=True):
+            indices, lights = draw.indices, draw.state.lighting
+            end, indexed = start + len(draw.vertices.position), indices is not None
+            index_end = index_start if indices is None else index_start + len(indices)
+            if lights is not latest:
+                latest, row = lights, lightings.row_of(lights)
+            kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
+            mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
+            numbers += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view, first_plane, end_plane)
+            start, index_start = end, index_end
+        tables.append(np.array(numbers, np.int64).reshape(-1, NUMBERS))
+    return tables[0] if len(tables) == 1 else np.concatenate(tables), lightings.distinct
+
+
+class _Lightings:
+    """The states of lighting of a table: its rows."""
+
+    def __init__(self, first: Lighting, tells_apart: bool) -> None:
+        self.distinct, self._tells_apart = [first], tells_apart
+
+    def row_of(self, lights: Lighting) -> int:
+        """Return the row of a state of lighting, if it does not equal the last one a new one."""
+        last = self.distinct[-1]
+        if self._tells_apart and lights is not last and not _same_rows(lights, last):
+            self.distinct.append(lights)
+        return len(self.distinct) - 1
 
 
 def _same_rows(a: Lighting, b: Lighting) -> bool:
@@ -281,26 +288,15 @@ def _lighting_arrays(lightings: list[Lighting], names: frozenset[str]) -> tuple[
 
 def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
     rows = np.zeros((len(draws), len(run.units), UNIT_COLUMNS), np.float32)
+    if not run.units:
+        return rows
+    matrices = of_each(draws, attrgetter("texture_matrices"))
     for n, unit in enumerate(run.units):
         if is_replaced(run.state, unit.index):
             rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY], rows[:, n, UNIT_IS_IDENTITY] = NO_COORDINATE, 1
             continue
-        matrices = [draw.texture_matrices[unit.index] for draw in draws]
-        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices(matrices)
+        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices([each[unit.index] for each in matrices])
         rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
         if not run.arrays.texcoords[n]:
-            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = [draw.vertices.texcoords[unit.index][0] for draw in draws]
+            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = attributes.constant_texcoords(draws, unit.index)
     return rows
-
-
-def _texcoords(run: Run, vertices: Sequence[Vertices], n_vertices: int) -> np.ndarray:
-    """Return the arrays of coordinates (U, V, 4); those of a unit without one are not set."""
-    if not run.units:
-        return NO_TEXCOORDS
-    if len(run.units) == 1 and run.arrays.texcoords[0]:
-        return _joined([each.texcoords[run.units[0].index] for each in vertices], True)[np.newaxis]
-    texcoords = np.empty((len(run.units), n_vertices, 4), np.float32)
-    for n, unit in enumerate(run.units):
-        if run.arrays.texcoords[n]:
-            np.concatenate([each.texcoords[unit.index] for each in vertices], out=texcoords[n])
-    return read_only(texcoords)
