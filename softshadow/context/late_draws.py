@@ -16,7 +16,7 @@ import numpy as np
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.precision import Precision
 from softshadow.context.primitive import Primitive
-from softshadow.pipeline.alike_draws import AlikeDraws, AlikeVertices, Attribute, ConstantTexcoords
+from softshadow.pipeline.alike_draws import AlikeDraws, Attribute, ConstantTexcoords, GivenVertices, JoinedVertices
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
@@ -169,9 +169,14 @@ class LateDraws:
     def _part(self, draws: Sequence[LateDraw | MovedDraw]) -> Sequence[Draw]:
         """Return draws that are alike."""
         moved = [draw for draw in draws if isinstance(draw, MovedDraw)]
-        if moved:
-            return moved_draws(moved[0].like, [draw[1:] for draw in moved])
-        return self._part_of_pairs([draw for draw in draws if isinstance(draw, LateDraw)])
+        if not moved:
+            return self._part_of_pairs([draw for draw in draws if isinstance(draw, LateDraw)])
+        vertices, indices = [draw.vertices for draw in moved], [draw.indices for draw in moved]
+        modelviews, kinds = [draw.modelview for draw in moved], [draw.modelview_kind for draw in moved]
+        own = [each for each in indices if each is not None]
+        if not own or len(own) == len(moved):
+            return AlikeDraws(moved[0].like, GivenVertices(vertices), modelviews, kinds, own or None)
+        return moved_draws(moved[0].like, zip(vertices, indices, modelviews, kinds, strict=True))
 
     def _part_of_pairs(self, draws: Sequence[LateDraw]) -> Sequence[Draw]:
         """Return draws of pairs that are alike."""
@@ -182,7 +187,7 @@ class LateDraws:
             return part
         return [separated(each, own) if own else each for each, own in zip(part, counts, strict=True)]
 
-    def _vertices(self, draws: Sequence[LateDraw]) -> AlikeVertices:
+    def _vertices(self, draws: Sequence[LateDraw]) -> JoinedVertices:
         """Return the vertices of draws with the same attributes."""
         form, primitives = draws[0].form, [draw.primitive for draw in draws]
         numbers = self._precision.numbers()
@@ -193,7 +198,7 @@ class LateDraws:
             for name in form.columns
             if name.startswith("texcoord")
         }
-        return AlikeVertices(
+        return JoinedVertices(
             [len(primitive.positions) // 4 for primitive in primitives],
             self._precision.rows(numbers, 4),
             self._attribute(draws, "color"),

@@ -17,7 +17,7 @@ import numpy as np
 from softshadow.errors import HistoryCut
 from softshadow.framebuffer import Framebuffer, Storage, default_framebuffer
 from softshadow.image import Image
-from softshadow.pipeline.alike_draws import AlikeDraws
+from softshadow.pipeline.alike_draws import AlikeDraws, GivenVertices
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
 
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
@@ -46,10 +46,9 @@ class Contents:
         self.new_bytes += COMMAND_BYTES
         kind = type(command)
         if kind is Draw:
-            if id(command.vertices) not in self._sizes:  # type: ignore[union-attr]
-                self._add_vertices(command.vertices)  # type: ignore[union-attr]
-            if command.indices is not None and id(command.indices) not in self._sizes:  # type: ignore[union-attr]
-                self._add_array(command.indices)  # type: ignore[union-attr]
+            self._add_vertices(command.vertices)  # type: ignore[union-attr]
+            if command.indices is not None:  # type: ignore[union-attr]
+                self._add_indices(command.indices)  # type: ignore[union-attr]
             if command.joined_positions is not None:  # type: ignore[union-attr]
                 self._add_array(command.joined_positions)  # type: ignore[union-attr]
         elif kind is DefineImage or kind is UpdateImage:
@@ -60,17 +59,29 @@ class Contents:
     def add_late(self, parts: Sequence[Sequence[Draw]]) -> None:
         """Count draws, some of which are not made yet."""
         for part in parts:
-            if isinstance(part, AlikeDraws):
-                self.commands += len(part)
-                self.new_bytes += COMMAND_BYTES * len(part)
-                for array in part.vertices.arrays:
-                    self._add_array(array)
-            else:
+            if not isinstance(part, AlikeDraws):
                 for draw in part:
                     self.add(draw)
+                continue
+            self.commands += len(part)
+            self.new_bytes += COMMAND_BYTES * len(part)
+            if isinstance(part.vertices, GivenVertices):
+                for vertices in part.vertices.vertices:
+                    self._add_vertices(vertices)
+            else:
+                for array in part.vertices.arrays:
+                    self._add_array(array)
+            for indices in part.indices or ():
+                self._add_indices(indices)
+
+    def _add_indices(self, indices: np.ndarray) -> None:
+        if id(indices) not in self._sizes:
+            self._add_array(indices)
 
     def _add_vertices(self, vertices: Vertices) -> None:
         sizes, texcoords = self._sizes, vertices.texcoords
+        if id(vertices) in sizes:
+            return
         sizes[id(vertices)] = 0
         attributes = [vertices.position, vertices.color, vertices.normal]
         if id(texcoords) not in sizes:

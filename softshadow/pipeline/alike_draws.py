@@ -1,4 +1,4 @@
-"""Small draws that differ in their vertices and modelview matrix only: they are made when someone looks at them.
+"""Small draws that differ in vertices, indices and modelview matrix only: they are made when someone looks at them.
 
 A program that draws each of many objects under a matrix of its own makes hundreds of draws of a few vertices in a
 frame. To make them one by one would take as long as to carry them out. So they stay arrays of all until a question
@@ -15,6 +15,8 @@ from typing import Any, NamedTuple, Protocol, overload
 import numpy as np
 
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
+
+Rows = tuple[np.ndarray, int]  # an attribute of some draws, and how many draws these are: as `Attribute.rows`
 
 
 class ConstantTexcoords(Protocol):
@@ -59,66 +61,132 @@ def _repeated(rows: np.ndarray, number: int, count: int) -> np.ndarray:
     return np.ndarray((count, width), rows.dtype, rows, number * width * size, (0, size))
 
 
-class AlikeVertices(NamedTuple):
-    """The vertices of several draws, with the same attributes: those that all `Vertices` have.
+class JoinedVertices(NamedTuple):
+    """The vertices of several draws in arrays of all; they have the attributes that all `Vertices` have.
 
-    counts: of the vertices of each draw; positions (V, 4) of all, one draw after the other; texcoords: of the texture
-    units that are not in `units`: there, by unit, are coordinates (V, 4).
+    counts: how many each draw has; position (V, 4): of all, one draw after the other; texcoords: of the texture units
+    that are not in `units`, which has coordinates (V, 4) by unit.
     """
 
     counts: Sequence[int]
-    positions: np.ndarray
-    colors: Attribute
-    normals: Attribute
-    texcoords: ConstantTexcoords
+    position: np.ndarray
+    color: Attribute
+    normal: Attribute
+    constants: ConstantTexcoords
     units: dict[int, np.ndarray]
 
-    def split(self) -> Iterator[Vertices]:
+    @property
+    def positions(self) -> Sequence[np.ndarray]:
+        """The positions (V, 4) of all draws."""
+        return (self.position,)
+
+    @property
+    def colors(self) -> Sequence[Rows]:
+        """The colours of all draws."""
+        return ((self.color.rows, len(self.counts)),)
+
+    @property
+    def normals(self) -> Sequence[Rows]:
+        """The normals of all draws."""
+        return ((self.normal.rows, len(self.counts)),)
+
+    def texcoords(self, unit: int) -> Sequence[np.ndarray]:
+        """Return the coordinates (V, 4) of a texture unit, where it has an array of them."""
+        return (self.units[unit],)
+
+    def constant_texcoords(self, unit: int) -> Sequence[np.ndarray]:
+        """Return the coordinates (4,) of a texture unit in each draw, where they are constants."""
+        return [self.constants.rows(1)[unit][0]] * len(self.counts)
+
+    def split(self) -> list[Vertices]:
         """Return the vertices of each draw."""
         ends = list(accumulate(self.counts, initial=0))
-        texcoords: Iterable[tuple[np.ndarray, ...]] = map(self.texcoords.rows, self.counts)
+        texcoords: Iterable[tuple[np.ndarray, ...]] = map(self.constants.rows, self.counts)
         for unit, rows in self.units.items():
             parts = zip(texcoords, split(rows, ends), strict=True)
             texcoords = [(*each[:unit], own, *each[unit + 1 :]) for each, own in parts]
-        columns = split(self.positions, ends), self.colors.split(ends), self.normals.split(ends)
-        return map(Vertices, *columns, texcoords)
+        columns = split(self.position, ends), self.color.split(ends), self.normal.split(ends)
+        return list(map(Vertices, *columns, texcoords))
 
     @property
     def first(self) -> Vertices:
         """The vertices of the first draw."""
         count = self.counts[0]
-        own = AlikeVertices(
-            (count,),
-            self.positions[:count],
-            self.colors.of_first(count),
-            self.normals.of_first(count),
-            self.texcoords,
-            {unit: rows[:count] for unit, rows in self.units.items()},
-        )
-        return next(own.split())
+        color, normal = self.color.of_first(count), self.normal.of_first(count)
+        units = {unit: rows[:count] for unit, rows in self.units.items()}
+        (own,) = JoinedVertices((count,), self.position[:count], color, normal, self.constants, units).split()
+        return own
 
     @property
     def arrays(self) -> list[np.ndarray]:
         """All arrays that have a row for each vertex."""
-        attributes = [each.rows for each in (self.colors, self.normals) if not each.is_constant]
-        return [self.positions, *attributes, *self.units.values()]
+        attributes = [each.rows for each in (self.color, self.normal) if not each.is_constant]
+        return [self.position, *attributes, *self.units.values()]
 
 
-class AlikeDraws(Sequence[Draw]):
-    """Draws that differ from `like` in their vertices and modelview matrices, and from each other in nothing else.
+class GivenVertices:
+    """Vertices of several draws whose arrays exist already, as `JoinedVertices`.
 
     Parameters
     ----------
-    like : Draw              its vertices and its matrix are nobody's
-    vertices : AlikeVertices
+    vertices : sequence of Vertices    of each draw
+    """
+
+    def __init__(self, vertices: Sequence[Vertices]) -> None:
+        self.vertices = vertices
+        self.positions = [each.position for each in vertices]
+        self.counts = list(map(len, self.positions))
+
+    @property
+    def colors(self) -> list[Rows]:
+        """The colours of each draw."""
+        return [(each.color, 1) for each in self.vertices]
+
+    @property
+    def normals(self) -> list[Rows]:
+        """The normals of each draw."""
+        return [(each.normal, 1) for each in self.vertices]
+
+    def texcoords(self, unit: int) -> list[np.ndarray]:
+        """Return the coordinates of a texture unit in each draw."""
+        return [each.texcoords[unit] for each in self.vertices]
+
+    def constant_texcoords(self, unit: int) -> list[np.ndarray]:
+        """Return the coordinates (4,) of a texture unit in each draw, where they are constants."""
+        return [each.texcoords[unit][0] for each in self.vertices]
+
+    def split(self) -> Sequence[Vertices]:
+        """Return the vertices of each draw."""
+        return self.vertices
+
+    @property
+    def first(self) -> Vertices:
+        """The vertices of the first draw."""
+        return self.vertices[0]
+
+
+class AlikeDraws(Sequence[Draw]):
+    """Draws that differ from `like` in vertices, indices and modelview matrix, and from each other in nothing else.
+
+    Parameters
+    ----------
+    like : Draw              its vertices, indices and matrix are nobody's
+    vertices : JoinedVertices or GivenVertices
     modelviews : sequence of (4, 4)
     kinds : sequence of int  of these matrices
+    indices : sequence or None    those of each draw; None if they have none
     """
 
     def __init__(
-        self, like: Draw, vertices: AlikeVertices, modelviews: Sequence[np.ndarray], kinds: Sequence[int]
+        self,
+        like: Draw,
+        vertices: JoinedVertices | GivenVertices,
+        modelviews: Sequence[np.ndarray],
+        kinds: Sequence[int],
+        indices: Sequence[np.ndarray] | None = None,
     ) -> None:
         self.like, self.vertices, self.modelviews, self.kinds = like, vertices, modelviews, kinds
+        self.indices = indices
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -136,14 +204,21 @@ class AlikeDraws(Sequence[Draw]):
     @cached_property
     def first(self) -> Draw:
         """The first draw."""
-        (draw,) = moved_draws(self.like, [(self.vertices.first, None, self.modelviews[0], self.kinds[0])])
+        indices = None if self.indices is None else self.indices[0]
+        (draw,) = moved_draws(self.like, [(self.vertices.first, indices, self.modelviews[0], self.kinds[0])])
         return draw
 
     @cached_property
     def draws(self) -> list[Draw]:
         """All draws."""
-        made = zip(self.vertices.split(), repeat(None), self.modelviews, self.kinds, strict=False)
-        return [self.first, *moved_draws(self.like, made)[1:]]
+        indices = repeat(None) if self.indices is None else self.indices
+        moved = zip(self.vertices.split(), indices, self.modelviews, self.kinds, strict=False)
+        return [self.first, *moved_draws(self.like, moved)[1:]]
+
+    @property
+    def counts(self) -> Sequence[int]:
+        """How many vertices each draw names."""
+        return self.vertices.counts if self.indices is None else list(map(len, self.indices))
 
 
 class DrawList(Sequence[Draw]):
@@ -187,8 +262,13 @@ def parts_of(draws: Sequence[Draw]) -> Sequence[Sequence[Draw]]:
     return draws.parts if isinstance(draws, DrawList) else (draws,)
 
 
+def vertices_of(part: Sequence[Draw]) -> JoinedVertices | GivenVertices:
+    """Return the vertices of such a part."""
+    return part.vertices if isinstance(part, AlikeDraws) else GivenVertices([draw.vertices for draw in part])
+
+
 def of_each(draws: Sequence[Draw], value: Callable[[Draw], Any]) -> list[Any]:
-    """Return a value of each draw that depends neither on its vertices nor on its modelview matrix."""
+    """Return a value of each draw that depends on nothing in which alike draws differ."""
     values: list[Any] = []
     for part in parts_of(draws):
         values += [value(part.like)] * len(part) if isinstance(part, AlikeDraws) else map(value, part)

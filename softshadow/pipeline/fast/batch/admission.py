@@ -10,7 +10,7 @@ import numpy as np
 from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.alike_draws import AlikeDraws, vertex_counts
+from softshadow.pipeline.alike_draws import AlikeDraws, GivenVertices, vertex_counts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, WIDTH_OF_POLYGONS, width_of
 from softshadow.pipeline.fast.batch.vertices import GENERATED
@@ -106,13 +106,15 @@ def continues_moved(command: Draw) -> bool:
 
 def continue_moved(draws: Sequence[Draw]) -> bool:
     """Return whether draws are small, and each continues a run of those before, as for `continues_moved`."""
-    if isinstance(draws, AlikeDraws):
-        like, counts = draws.like, draws.vertices.counts
-        if like.mode == gl.GL_TRIANGLES and max(map(start_of_last_nine, set(counts))) >= 0:
-            if any(map(leaves_out_triangles, draws)):
-                return False
-        return max(counts) < least_compared(like)
-    return all(map(continues_moved, draws)) and max(vertex_counts(draws)) < least_compared(draws[0])
+    if not isinstance(draws, AlikeDraws):
+        return all(map(continues_moved, draws)) and max(vertex_counts(draws)) < least_compared(draws[0])
+    like, vertices = draws.like, draws.vertices
+    if max(vertices.counts) >= least_compared(like) or any(kind & UNKNOWN for kind in set(draws.kinds)):
+        return False
+    if isinstance(vertices, GivenVertices) and any(each.edges is not None for each in vertices.vertices):
+        return False
+    can_leave_out = like.mode == gl.GL_TRIANGLES and any(start_of_last_nine(n) >= 0 for n in set(vertices.counts))
+    return not (can_leave_out and any(map(leaves_out_triangles, draws)))
 
 
 def can_begin_run(command: Draw, target: Framebuffer) -> bool:

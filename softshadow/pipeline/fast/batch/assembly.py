@@ -70,7 +70,7 @@ def primitive_counts(draws: Sequence[Draw]) -> list[int]:
     counts: list[int] = []
     for part in parts_of(draws):
         if isinstance(part, AlikeDraws):
-            counts += [primitive_count(part.like.mode, n) for n in part.vertices.counts]
+            counts += [primitive_count(part.like.mode, n) for n in part.counts]
         else:
             counts += map(primitives_of, part)
     return counts

@@ -14,8 +14,8 @@ from softshadow.jit import read_only
 from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.alike_draws import AlikeDraws, of_each, parts_of
 from softshadow.pipeline.commands import Draw
-from softshadow.pipeline.fast.batch import attributes, lighting
-from softshadow.pipeline.fast.batch.attributes import REAL
+from softshadow.pipeline.fast.batch import lighting
+from softshadow.pipeline.fast.batch.attributes import NO_COORDINATES, NO_INDICES, NO_ROWS, REAL, Attributes, indices_of
 from softshadow.pipeline.fast.batch.planes import Planes
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.vertices import (
@@ -24,6 +24,8 @@ from softshadow.pipeline.fast.batch.vertices import (
     END,
     FLOATS,
     IN_STAGES,
+    INDEX_END,
+    INDEX_START,
     JOINED_STRIPS,
     KIND,
     MODELVIEW,
@@ -125,32 +127,32 @@ def _transform(viewport: Viewport, target: Framebuffer) -> tuple[np.ndarray, np.
 
 def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, reads_indices: bool = True) -> Table:
     """Return the draws of a run as arrays; without their indices if nobody reads them."""
-    arrays, layout = run.arrays, run.layout
+    arrays, layout, attributes = run.arrays, run.layout, Attributes(draws)
     rows = np.empty((len(draws), FLOATS), np.float32)
     rows[:, MODELVIEW:PROJECTION] = _matrices(_modelviews(draws))
     rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, attrgetter("projection")))
     if not arrays.color:
-        rows[:, COLOR:NORMAL] = attributes.constant_colors(draws)
+        rows[:, COLOR:NORMAL] = attributes.constant_colors()
     if not arrays.normal:
-        rows[:, NORMAL : NORMAL + 3] = attributes.constant_normals(draws)
+        rows[:, NORMAL : NORMAL + 3] = attributes.constant_normals()
     numbers, lightings = _numbers(draws, run, views, planes)
     return Table(
         layout,
         numbers,
         rows,
-        _unit_rows(run, draws),
+        _unit_rows(run, draws, attributes),
         *_lighting_arrays(lightings, arrays.materials),
         run.generated,
         run.planes,
         NO_PLANE_ROWS if planes.rows is NO_PLANES else read_only(planes.rows),
-        attributes.positions_of(draws),
-        attributes.colors_of(draws, arrays.color),
-        attributes.normals_of(draws, arrays.normal and run.reads_normals),
+        attributes.positions(),
+        attributes.colors(arrays.color),
+        attributes.normals(arrays.normal and run.reads_normals),
         _reflectances(draws, arrays.materials, layout.two_side),
-        attributes.secondaries_of(draws) if run.reads_secondaries else attributes.NO_ROWS,
-        attributes.fog_coordinates_of(draws) if layout.fog == BY_COORDINATE else attributes.NO_COORDINATES,
-        attributes.texcoords_of(run, draws),
-        attributes.indices_of(draws) if reads_indices else attributes.NO_INDICES,
+        attributes.secondaries() if run.reads_secondaries else NO_ROWS,
+        attributes.fog_coordinates() if layout.fog == BY_COORDINATE else NO_COORDINATES,
+        attributes.texcoords(run),
+        indices_of(draws) if reads_indices else NO_INDICES,
         views.scales,
         views.shifts,
     )
@@ -202,16 +204,20 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> t
     for part in parts_of(draws):
         first, place = place, place + len(part)
         if isinstance(part, AlikeDraws):
-            mode, row = part.like.mode, lightings.row_of(part.like.state.lighting)
+            mode, indexed, counts = part.like.mode, part.indices is not None, part.vertices.counts
             table = np.empty((len(part), NUMBERS), np.int64)
             table[:] = (
-                0, 0, mode, index_start, index_start, 0, 0, row, across or across_by_mode.get(mode, 0),
+                0, 0, mode, index_start, index_start, indexed, 0, lightings.row_of(part.like.state.lighting),
+                across or indexed or across_by_mode.get(mode, 0),
                 views.of_draws[first], planes.firsts[first], planes.ends[first],
             )  # fmt: skip
             table[:, KIND] = part.kinds
-            table[:, END] = np.cumsum(part.vertices.counts) + start
-            table[:, START] = table[:, END] - part.vertices.counts
-            start = int(table[-1, END])
+            table[:, END] = np.cumsum(counts) + start
+            table[:, START] = table[:, END] - counts
+            if indexed:
+                table[:, INDEX_END] += np.cumsum(part.counts)
+                table[:, INDEX_START] = table[:, INDEX_END] - part.counts
+            start, index_start = int(table[-1, END]), int(table[-1, INDEX_END])
             tables.append(table)
             continue
         numbers: list[int] = []  # in the order of the columns
@@ -286,7 +292,7 @@ def _lighting_arrays(lightings: list[Lighting], names: frozenset[str]) -> tuple[
     return lights, materials, flags
 
 
-def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
+def _unit_rows(run: Run, draws: Sequence[Draw], attributes: Attributes) -> np.ndarray:
     rows = np.zeros((len(draws), len(run.units), UNIT_COLUMNS), np.float32)
     if not run.units:
         return rows
@@ -298,5 +304,5 @@ def _unit_rows(run: Run, draws: Sequence[Draw]) -> np.ndarray:
         rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices([each[unit.index] for each in matrices])
         rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
         if not run.arrays.texcoords[n]:
-            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = attributes.constant_texcoords(draws, unit.index)
+            rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = attributes.constant_texcoords(unit.index)
     return rows
