@@ -150,12 +150,17 @@ class LateDraws:
     def take(self) -> Iterator[LateCommands]:
         """Yield the draws in their order, and forget them."""
         draws, self.draws, self._n_numbers = self.draws, [], 0
-        for _, same in groupby(draws, _is_stippled):
-            yield self._commands_of(list(same))
-
-    def _commands_of(self, draws: Sequence[LateDraw | MovedDraw]) -> LateCommands:
-        """Return draws, of which those that are alike are a part."""
         keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
+        if not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
+            yield self._commands_of(draws, keys)
+            return
+        for _, same in groupby(zip(draws, keys, strict=True), lambda each: _is_stippled(each[0])):
+            yield self._commands_of(*zip(*same, strict=True))
+
+    def _commands_of(self, draws: Sequence[LateDraw | MovedDraw], keys: Sequence[int]) -> LateCommands:
+        """Return draws, of which those with equal keys are a part."""
+        if len(set(keys)) == 1:
+            return LateCommands([self._part(draws)], [(0, len(draws))])
         numbers: dict[int, int] = {}
         alike: list[list[LateDraw | MovedDraw]] = []
         for key, draw in zip(keys, draws, strict=True):
