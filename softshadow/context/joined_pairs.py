@@ -2,18 +2,19 @@
 
 Mesa joins points, lines, triangles and quads (`softshadow.pipeline.mesa.driver_draws`). Strips, fans, loops and
 polygons it draws one by one; here they become one draw of separate triangles or lines, which has the same pixels and
-costs less (`softshadow.pipeline.geometry.separate`).
+costs less (`softshadow.pipeline.geometry.separate`). A program that draws each shape with its outline goes back and
+forth between two modes: its pairs are joined, too, and become a draw for each change of the mode.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.context.late_draws import LateDraw
+from softshadow.context.late_draws import LateDraw, LateForm
 from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated
@@ -41,18 +42,19 @@ class JoinedPairs:
 
     Attributes
     ----------
-    like : Draw              a draw with the state of all
-    n_vertices : int         of all pairs
+    like : Draw              a draw with the state of all, and the mode of the last ones
     """
 
-    __slots__ = ("_can_be_separated", "_counts", "_first", "_parts", "like", "n_vertices")
+    __slots__ = ("_are_separable", "_counts", "_first", "_forms", "_n_vertices", "_parts", "_turns", "like")
 
     def __init__(self, first: Draw | LateDraw, n_vertices: int) -> None:
-        self._first, self.n_vertices = first, n_vertices
+        self._first, self._n_vertices = first, n_vertices  # since the last turn
         self.like = first.form.like if isinstance(first, LateDraw) else first
         self._counts = [n_vertices]  # of each pair
         self._parts: list[tuple[Told, Vertices | LateVertices]] | None = None  # not needed before the second pair
-        self._can_be_separated: bool | None = None  # nor known
+        self._are_separable: dict[int, bool] = {}  # pairs of a mode
+        self._forms: dict[int, LateForm] = {}  # the latest by mode
+        self._turns: list[tuple[int, LateForm]] = []  # the number of the first pair of another mode, and its form
 
     @property
     def parts(self) -> list[tuple[Told, Vertices | LateVertices]]:
@@ -78,7 +80,7 @@ class JoinedPairs:
     def count(self, count: int) -> None:
         """Count the vertices of a pair."""
         self._counts.append(count)
-        self.n_vertices += count
+        self._n_vertices += count
 
     def last(self, told: Told) -> Vertices | LateVertices | None:
         """Return the vertices of the last part; None if it belongs to other debug groups or has another origin."""
@@ -100,18 +102,79 @@ class JoinedPairs:
     @property
     def takes_more(self) -> bool:
         """Whether another pair can be joined: only after complete primitives."""
-        corners = SEPARATE.get(self.like.mode)
+        mode = self.like.mode
+        corners = SEPARATE.get(mode)
         if corners is not None:
-            return self.n_vertices % corners == 0
-        if self._can_be_separated is None:
-            self._can_be_separated = can_be_separated(self.like.state, self.like.mode)
-        return self._can_be_separated
+            return self._n_vertices % corners == 0
+        if mode not in self._are_separable:
+            self._are_separable[mode] = can_be_separated(self.like.state, mode)
+        return self._are_separable[mode]
+
+    # -- pairs of other modes ------------------------------------------------------------------------------------------
+    @property
+    def can_turn(self) -> bool:
+        """Whether pairs of another mode may follow: if the numbers of all vertices are those of one primitive."""
+        is_late = isinstance(self._first, LateDraw) and (self._parts is None or len(self._parts) == 1)
+        return is_late and self.takes_more
+
+    def known_form(self, mode: int) -> LateForm | None:
+        """Return the form of the last pairs of a mode, if there were some."""
+        return self._forms.get(mode)
+
+    def turn(self, form: LateForm) -> None:
+        """Let pairs of another mode follow."""
+        self.unturn()
+        if form.like.mode != self.like.mode:
+            self._forms[self._form.like.mode], self._forms[form.like.mode] = self._form, form
+            self._turns.append((len(self._counts), form))
+            self.like, self._n_vertices = form.like, 0
+
+    def unturn(self) -> None:
+        """Undo the last turn if no pair has followed."""
+        if self._turns and self._turns[-1][0] == len(self._counts):
+            self._turns.pop()
+            self.like, first = self._form.like, self._turns[-1][0] if self._turns else 0
+            self._n_vertices = sum(self._counts[first:])
+
+    @property
+    def _form(self) -> LateForm:
+        """The form of the last pairs."""
+        assert isinstance(self._first, LateDraw)
+        return self._turns[-1][1] if self._turns else self._first.form
+
+    def _in_turns(self, first: LateDraw) -> list[LateDraw]:
+        """Return the draws: one for each turn."""
+        bounds = [0, *[number for number, _ in self._turns], len(self._counts)]
+        forms, draws, end = [first.form, *[form for _, form in self._turns]], [], 0
+        others = first.primitive, first.color, first.normal, first.modelview, first.modelview_kind
+        for form, (a, b) in zip(forms, pairwise(bounds), strict=True):
+            counts, start = tuple(self._counts[a:b]), end
+            end += 4 * sum(counts)
+            are_separated = len(counts) > 1 and form.like.mode not in SEPARATE
+            draws.append(LateDraw(form, *others, counts if are_separated else (), start, end))
+        return draws
+
+    def take_before_last_turn(self) -> list[LateDraw]:
+        """Return the draws of the pairs before the last turn, which are no longer among these; pairs have followed."""
+        if not self._turns:
+            return []
+        first = self._first
+        assert isinstance(first, LateDraw)
+        *before, last = self._in_turns(first)
+        primitive = first.primitive
+        primitive.start = last.start
+        earlier, number = primitive.split(), self._turns[-1][0]
+        self._first, self._counts, self._turns = last._replace(start=0, end=None), self._counts[number:], []
+        return [draw._replace(primitive=earlier) for draw in before]
 
     def commands(self) -> Sequence[Draw | LateDraw]:
         """Return the draws: one if debug groups and origins of all pairs are equal, else one for each change."""
+        self.unturn()
         first = self._first
         if len(self._counts) == 1:
             return [first]
+        if isinstance(first, LateDraw) and self._turns:
+            return self._in_turns(first)
         if isinstance(first, LateDraw) and len(self.parts) == 1:  # which has the vertices of all pairs
             return [first if self.like.mode in SEPARATE else first._replace(counts=tuple(self._counts))]
         parts = [(told, part.vertices() if isinstance(part, LateVertices) else part) for told, part in self.parts]

@@ -47,7 +47,7 @@ class LateForm(NamedTuple):
 
 
 class LateDraw(NamedTuple):
-    """A draw with the numbers of its vertices: those of `primitive`.
+    """A draw with the numbers of its vertices: those of `primitive`, from `start` to `end` among its positions.
 
     The columns of its form are among the changes of the primitive; the other attributes have the values `color` and
     `normal`. Where it is of several strips, fans, loops or polygons, `counts` are their numbers of vertices.
@@ -60,6 +60,14 @@ class LateDraw(NamedTuple):
     modelview: np.ndarray
     modelview_kind: int
     counts: tuple[int, ...] = ()
+    start: int = 0
+    end: int | None = None
+
+    @property
+    def positions(self) -> list[float]:
+        """x, y, z, w of each vertex."""
+        positions = self.primitive.positions
+        return positions if self.end is None else positions[self.start : self.end]
 
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
@@ -144,7 +152,7 @@ class LateDraws:
     def add(self, draw: LateDraw | MovedDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
         self.draws.append(draw)
-        self._n_numbers += len(draw.primitive.positions) if type(draw) is LateDraw else MOVED_NUMBERS
+        self._n_numbers += len(draw.positions) if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS
 
     def take(self) -> Iterator[LateCommands]:
@@ -152,7 +160,8 @@ class LateDraws:
         draws, self.draws, self._n_numbers = self.draws, [], 0
         keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
         if not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
-            yield self._commands_of(draws, keys)
+            if draws:
+                yield self._commands_of(draws, keys)
             return
         for _, same in groupby(zip(draws, keys, strict=True), lambda each: _is_stippled(each[0])):
             yield self._commands_of(*zip(*same, strict=True))
@@ -194,17 +203,15 @@ class LateDraws:
 
     def _vertices(self, draws: Sequence[LateDraw]) -> JoinedVertices:
         """Return the vertices of draws with the same attributes."""
-        form, primitives = draws[0].form, [draw.primitive for draw in draws]
+        form, positions = draws[0].form, [draw.positions for draw in draws]
         numbers = self._precision.numbers()
-        for primitive in primitives:
-            numbers.extend(primitive.positions)
+        for each in positions:
+            numbers.extend(each)
         units = {
-            SLOTS[name] - TEXCOORD: self._rows(primitives, name, 4)
-            for name in form.columns
-            if name.startswith("texcoord")
+            SLOTS[name] - TEXCOORD: self._rows(draws, name, 4) for name in form.columns if name.startswith("texcoord")
         }
         return JoinedVertices(
-            [len(primitive.positions) // 4 for primitive in primitives],
+            [len(each) // 4 for each in positions],
             self._precision.rows(numbers, 4),
             self._attribute(draws, "color"),
             self._attribute(draws, "normal"),
@@ -217,16 +224,22 @@ class LateDraws:
         values = [draw.color if name == "color" else draw.normal for draw in draws]
         width = len(values[0])
         if name in draws[0].form.columns:
-            return Attribute(self._rows([draw.primitive for draw in draws], name, width), False)
+            return Attribute(self._rows(draws, name, width), False)
         if len(set(map(id, values))) == 1:
             return Attribute(self._precision.constant(values[0], 1), True)
         numbers = self._precision.numbers()
         numbers.extend(chain.from_iterable(values))
         return Attribute(self._precision.rows(numbers, width), True)
 
-    def _rows(self, primitives: Sequence[Primitive], name: str, width: int) -> np.ndarray:
-        """Return an attribute of all vertices of several primitives, each of which has changes of it."""
-        numbers = self._precision.numbers()
-        for primitive in primitives:
-            numbers.extend(primitive.components(name, ()))
+    def _rows(self, draws: Sequence[LateDraw], name: str, width: int) -> np.ndarray:
+        """Return an attribute of all vertices of draws, which is among the changes of their primitives."""
+        numbers, whole = self._precision.numbers(), {}
+        for draw in draws:
+            primitive, end = draw.primitive, draw.end
+            if end is None:
+                numbers.extend(primitive.components(name, ()))
+                continue
+            if id(primitive) not in whole:
+                whole[id(primitive)] = primitive.components(name, ())
+            numbers.extend(whole[id(primitive)][draw.start * width // 4 : end * width // 4])
         return self._precision.rows(numbers, width)

@@ -126,7 +126,13 @@ class VertexBuffer:
     def can_join(self, mode: int) -> bool:
         """Return whether vertices of a mode can be joined to the pairs that are not drawn yet."""
         joined = self.joined_pairs
-        return joined is not None and joined.like.mode == mode and joined.takes_more
+        if joined is None:
+            return False
+        joined.unturn()
+        if joined.like.mode != mode or not joined.takes_more:
+            return False
+        self._draw_all(joined.take_before_last_turn())
+        return True
 
     def begin_joined_pairs(self, first: Draw | LateDraw, n_vertices: int) -> None:
         """Draw the joined pairs, and begin new ones with a draw of so many vertices."""
@@ -137,6 +143,7 @@ class VertexBuffer:
         """Leave the pairs before an open one, with which it began, to be drawn without it."""
         assert self.joined_pairs is not None
         self.joined_pairs.replace_primitive(primitive.split())
+        self.joined_pairs.unturn()
         self.paused = None
 
     def end_pair(self, mode: int, vertices: int) -> None:
@@ -151,11 +158,14 @@ class VertexBuffer:
         """Draw the joined pairs, if there are any."""
         joined, self.joined_pairs, self.paused = self.joined_pairs, None, None
         if joined is not None:
-            for command in joined.commands():
-                if not isinstance(command, LateDraw):
-                    self.draw(command)
-                elif not self._part_of(command.form.like.mode).is_lost:
-                    self._stream.add_late(command)
+            self._draw_all(joined.commands())
+
+    def _draw_all(self, commands: Sequence[Draw | LateDraw]) -> None:
+        for command in commands:
+            if not isinstance(command, LateDraw):
+                self.draw(command)
+            elif not self._part_of(command.form.like.mode).is_lost:
+                self._stream.add_late(command)
 
     def submit(self) -> None:
         """Draw the collected vertices; those that follow lie behind them in Mesa's buffer."""

@@ -129,7 +129,9 @@ def _new_form(context: Context, mode: int, carried: Carried, like: Draw | None) 
 def resume(context: Context, mode: int) -> bool:
     """Begin a pair with the vertices of the paused one; return False, and do nothing, if it has its own."""
     paused = context.vertex_buffer.paused
-    if paused is None or paused.mode != mode or context.primitive is not None:
+    if paused is None or context.primitive is not None:
+        return False
+    if paused.mode != mode and not _turn(context, paused, mode):
         return False
     if not paused.start and not _let_wait(context, paused):
         return False
@@ -138,8 +140,24 @@ def resume(context: Context, mode: int) -> bool:
         value = current[name] if name in current else context.attribute(name)
         if value is not changes[-1][1]:
             changes.append((place, value))
-    paused.start = place
+    paused.start, paused.continued = place, False
     context.primitive, context.ready = paused, False
+    return True
+
+
+def _turn(context: Context, paused: Primitive, mode: int) -> bool:
+    """Let pairs of another mode follow the paused one; return False, and do nothing, if they are drawn after it."""
+    joined = context.vertex_buffer.joined_pairs
+    assert joined is not None
+    if not joined.can_turn or not is_collected(context, mode):
+        return False
+    form = joined.known_form(mode)
+    if form is None or form.like.state is not context.drawn_state:
+        form = form_of(context, mode, context.vertex_buffer.sizes)
+    if form is None or form.follows or form.like.state is not joined.like.state:
+        return False
+    joined.turn(form)
+    paused.mode = mode
     return True
 
 

@@ -105,7 +105,6 @@ def test_pairs_of_one_format_are_one_part(context):
         quad(left)
     (part,) = context.vertex_buffer.joined_pairs.parts
     assert isinstance(part[1], LateVertices)
-    assert context.vertex_buffer.joined_pairs.n_vertices == 12
     assert len(context.frame.commands[0].vertices.position) == 12
 
 
