@@ -19,7 +19,7 @@ from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated
 from softshadow.pipeline.mesa.driver_draws import CORNERS, SEPARATE
-from softshadow.state import BLACK
+from softshadow.state import BLACK, State
 
 OPTIONAL = {"edges": True, "secondary": BLACK, "fog_coordinates": 0.0}  # the last fields of `Vertices`: initial values
 
@@ -43,17 +43,26 @@ class JoinedPairs:
     Attributes
     ----------
     like : Draw              a draw with the state of all, and the mode of the last ones
+
+    Parameters
+    ----------
+    first : Draw or LateDraw of the first pair, with `n_vertices` vertices
+    before : JoinedPairs or None    those that this pair could not be joined to, if only its mode came between
     """
 
     __slots__ = ("_are_separable", "_counts", "_first", "_forms", "_n_vertices", "_parts", "_turns", "like")
 
-    def __init__(self, first: Draw | LateDraw, n_vertices: int) -> None:
+    def __init__(self, first: Draw | LateDraw, n_vertices: int, before: JoinedPairs | None = None) -> None:
         self._first, self._n_vertices = first, n_vertices  # since the last turn
         self.like = first.form.like if isinstance(first, LateDraw) else first
         self._counts = [n_vertices]  # of each pair
         self._parts: list[tuple[Told, Vertices | LateVertices]] | None = None  # not needed before the second pair
-        self._are_separable: dict[int, bool] = {}  # pairs of a mode
         self._forms: dict[int, LateForm] = {}  # the latest by mode
+        self._are_separable: dict[int, bool] = {}  # pairs of a mode
+        if before is not None and before.like.state is self.like.state:
+            self._forms, self._are_separable = before._forms, before._are_separable
+        if isinstance(first, LateDraw):
+            self._forms[self.like.mode] = first.form
         self._turns: list[tuple[int, LateForm]] = []  # the number of the first pair of another mode, and its form
 
     @property
@@ -111,36 +120,28 @@ class JoinedPairs:
         return self._are_separable[mode]
 
     # -- pairs of other modes ------------------------------------------------------------------------------------------
-    @property
-    def can_turn(self) -> bool:
-        """Whether pairs of another mode may follow: if the numbers of all vertices are those of one primitive."""
+    def turn(self, mode: int, state: State) -> bool:
+        """Let pairs of another mode follow; return False, and do nothing, if they are drawn after these.
+
+        They follow if there were such pairs before, and if the numbers of all vertices are those of one primitive.
+        """
+        form = self._forms.get(mode)
         is_late = isinstance(self._first, LateDraw) and (self._parts is None or len(self._parts) == 1)
-        return is_late and self.takes_more
-
-    def known_form(self, mode: int) -> LateForm | None:
-        """Return the form of the last pairs of a mode, if there were some."""
-        return self._forms.get(mode)
-
-    def turn(self, form: LateForm) -> None:
-        """Let pairs of another mode follow."""
+        if form is None or form.follows or form.like.state is not state or not (is_late and self.takes_more):
+            return False
         self.unturn()
-        if form.like.mode != self.like.mode:
-            self._forms[self._form.like.mode], self._forms[form.like.mode] = self._form, form
+        if mode != self.like.mode:
             self._turns.append((len(self._counts), form))
             self.like, self._n_vertices = form.like, 0
+        return True
 
     def unturn(self) -> None:
         """Undo the last turn if no pair has followed."""
         if self._turns and self._turns[-1][0] == len(self._counts):
             self._turns.pop()
-            self.like, first = self._form.like, self._turns[-1][0] if self._turns else 0
-            self._n_vertices = sum(self._counts[first:])
-
-    @property
-    def _form(self) -> LateForm:
-        """The form of the last pairs."""
-        assert isinstance(self._first, LateDraw)
-        return self._turns[-1][1] if self._turns else self._first.form
+            assert isinstance(self._first, LateDraw)
+            first, form = self._turns[-1] if self._turns else (0, self._first.form)
+            self.like, self._n_vertices = form.like, sum(self._counts[first:])
 
     def _in_turns(self, first: LateDraw) -> list[LateDraw]:
         """Return the draws: one for each turn."""

@@ -23,6 +23,7 @@ from softshadow.pipeline.geometry.separate import separated
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
 MOVED_NUMBERS = 16  # as which a draw counts whose arrays have been made
+SINGLE = 64  # bytes of a matrix in single precision
 MOST_FORMS = 1024  # as many as there are states that are found again
 NO_ROWS = np.empty((0, 4), np.float32)
 NO_VERTICES = Vertices(NO_ROWS, NO_ROWS, NO_ROWS, ())
@@ -57,7 +58,7 @@ class LateDraw(NamedTuple):
     primitive: Primitive
     color: tuple[float, ...]
     normal: tuple[float, ...]
-    modelview: np.ndarray
+    modelview: bytes
     modelview_kind: int
     counts: tuple[int, ...] = ()
     start: int = 0
@@ -71,7 +72,7 @@ class LateDraw(NamedTuple):
 
     def made(self, vertices: Vertices) -> Draw:
         """Return the draw with arrays."""
-        (draw,) = moved_draws(self.form.like, [(vertices, None, self.modelview, self.modelview_kind)])
+        (draw,) = moved_draws(self.form.like, [(vertices, None, _matrices([self])[0], self.modelview_kind)])
         return separated(draw, self.counts) if self.counts else draw
 
 
@@ -84,8 +85,14 @@ class MovedDraw(NamedTuple):
     like: Draw
     vertices: Vertices
     indices: np.ndarray | None
-    modelview: np.ndarray
+    modelview: bytes
     modelview_kind: int
+
+
+def _matrices(draws: Sequence[LateDraw | MovedDraw]) -> np.ndarray:
+    """Return the modelview matrices (D, 4, 4), read-only."""
+    dtype = np.float32 if len(draws[0].modelview) == SINGLE else np.float64
+    return np.frombuffer(b"".join([draw.modelview for draw in draws]), dtype).reshape(-1, 4, 4)
 
 
 class LateCommands(Sequence[Draw]):
@@ -186,7 +193,7 @@ class LateDraws:
         if not moved:
             return self._part_of_pairs([draw for draw in draws if isinstance(draw, LateDraw)])
         vertices, indices = [draw.vertices for draw in moved], [draw.indices for draw in moved]
-        modelviews, kinds = [draw.modelview for draw in moved], [draw.modelview_kind for draw in moved]
+        modelviews, kinds = _matrices(moved), [draw.modelview_kind for draw in moved]
         own = [each for each in indices if each is not None]
         if not own or len(own) == len(moved):
             return AlikeDraws(moved[0].like, GivenVertices(vertices), modelviews, kinds, own or None)
@@ -194,9 +201,8 @@ class LateDraws:
 
     def _part_of_pairs(self, draws: Sequence[LateDraw]) -> Sequence[Draw]:
         """Return draws of pairs that are alike."""
-        modelviews, kinds = [draw.modelview for draw in draws], [draw.modelview_kind for draw in draws]
-        part = AlikeDraws(draws[0].form.like, self._vertices(draws), modelviews, kinds)
-        counts = [draw.counts for draw in draws]
+        kinds, counts = [draw.modelview_kind for draw in draws], [draw.counts for draw in draws]
+        part = AlikeDraws(draws[0].form.like, self._vertices(draws), _matrices(draws), kinds)
         if not any(counts):
             return part
         return [separated(each, own) if own else each for each, own in zip(part, counts, strict=True)]

@@ -133,6 +133,13 @@ class MatrixStack:
         matrix, kind = self.known, self.unresolved_kind
         return self._read() if matrix is None else matrix, self.kind if kind & UNKNOWN else kind
 
+    def drawn_bytes(self) -> tuple[bytes, int]:
+        """Return what `drawn` does, with the bytes of the matrix: an array of it costs as much as computing it."""
+        if self.end:
+            self._compute()
+        kind, start = self.unresolved_kind, len(self.below) * self._size
+        return bytes(self._bytes[start : start + self._size]), self.kind if kind & UNKNOWN else kind
+
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> bool:
         """Push a copy of the current matrix; return False if the stack is full."""
@@ -234,7 +241,7 @@ class MatrixStack:
         """Replace the current matrix by a read-only (4, 4) array."""
         self._forget()
         self._enqueue_matrix(LOAD, matrix)
-        self.known = matrix
+        self.known = np.ndarray((4, 4), self._dtype, matrix.tobytes())  # row after row, as all others
         self.unresolved_kind = GENERAL | UNKNOWN
 
     def multiply(self, matrix: np.ndarray) -> None:

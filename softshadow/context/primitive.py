@@ -112,10 +112,7 @@ class Primitive:
         return components
 
     def split(self) -> Primitive:
-        """Move the vertices of the pairs before to a primitive of their own, and return it.
-
-        The next vertex sets `limit`, or the pair has ended.
-        """
+        """Move the vertices of the pairs before to a primitive of their own, and return it."""
         before, start = Primitive(self.mode, self.from_list, self.materials), self.start
         before.positions, self.positions = self.positions[:start], self.positions[start:]
         for name, changes in self.changes.items():
@@ -123,7 +120,7 @@ class Primitive:
             before.changes[name] = changes[:n_before]
             first = (start, changes[n_before - 1][1])  # what the pair began with, unless it is changed there
             self.changes[name] = [(place - start, value) for place, value in (first, *changes[n_before:])]
-        self.counted, self.start = self.counted - start // 4, 0
+        self.counted, self.limit, self.start = self.counted - start // 4, self.limit - start, 0
         return before
 
     def select(self, vertices: Sequence[int]) -> None:

@@ -136,8 +136,9 @@ class VertexBuffer:
 
     def begin_joined_pairs(self, first: Draw | LateDraw, n_vertices: int) -> None:
         """Draw the joined pairs, and begin new ones with a draw of so many vertices."""
+        before = self.joined_pairs
         self.draw_joined_pairs()
-        self.joined_pairs = JoinedPairs(first, n_vertices)
+        self.joined_pairs = JoinedPairs(first, n_vertices, before)
 
     def split(self, primitive: Primitive) -> None:
         """Leave the pairs before an open one, with which it began, to be drawn without it."""

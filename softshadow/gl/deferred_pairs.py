@@ -112,7 +112,7 @@ class DeferredPair:
             if context.deferred is not self:
                 return False  # the state has been read, which settles the pair
             if form is not None:
-                current, matrix = context.current, context.modelview_stack.drawn()
+                current, matrix = context.current, context.modelview_stack.drawn_bytes()
                 self._draw = LateDraw(form, primitive, current.color, current.normal, *matrix)
                 context.primitive = None
                 return True

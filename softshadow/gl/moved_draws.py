@@ -56,7 +56,7 @@ def continue_draw(context: Context, before: Draw, vertices: Vertices, indices: n
     """
     if context.drawn_state is not before.state or not _is_continued(context, before):
         return False
-    context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn()))
+    context.stream.add_late(MovedDraw(before, vertices, indices, *context.modelview_stack.drawn_bytes()))
     return True
 
 

@@ -69,7 +69,9 @@ def _late_draw(context: Context, mode: int, primitive: Primitive) -> LateDraw | 
     for name in form.columns:
         if name not in primitive.changes:  # then all its vertices have the same value
             primitive.changes[name] = [(0, context.attribute(name))]
-    return LateDraw(form, primitive, context.current.color, context.current.normal, *context.modelview_stack.drawn())
+    return LateDraw(
+        form, primitive, context.current.color, context.current.normal, *context.modelview_stack.drawn_bytes()
+    )
 
 
 def form_of(context: Context, mode: int, carried: Iterable[str]) -> LateForm | None:
@@ -131,8 +133,11 @@ def resume(context: Context, mode: int) -> bool:
     paused = context.vertex_buffer.paused
     if paused is None or context.primitive is not None:
         return False
-    if paused.mode != mode and not _turn(context, paused, mode):
-        return False
+    if paused.mode != mode:
+        joined = context.vertex_buffer.joined_pairs
+        if joined is None or not joined.turn(mode, context.drawn_state):
+            return False
+        paused.mode = joined.like.mode
     if not paused.start and not _let_wait(context, paused):
         return False
     place, current = len(paused.positions), context.current.__dict__
@@ -142,22 +147,6 @@ def resume(context: Context, mode: int) -> bool:
             changes.append((place, value))
     paused.start, paused.continued = place, False
     context.primitive, context.ready = paused, False
-    return True
-
-
-def _turn(context: Context, paused: Primitive, mode: int) -> bool:
-    """Let pairs of another mode follow the paused one; return False, and do nothing, if they are drawn after it."""
-    joined = context.vertex_buffer.joined_pairs
-    assert joined is not None
-    if not joined.can_turn or not is_collected(context, mode):
-        return False
-    form = joined.known_form(mode)
-    if form is None or form.like.state is not context.drawn_state:
-        form = form_of(context, mode, context.vertex_buffer.sizes)
-    if form is None or form.follows or form.like.state is not joined.like.state:
-        return False
-    joined.turn(form)
-    paused.mode = mode
     return True
 
 

@@ -172,7 +172,7 @@ class AlikeDraws(Sequence[Draw]):
     ----------
     like : Draw              its vertices, indices and matrix are nobody's
     vertices : JoinedVertices or GivenVertices
-    modelviews : sequence of (4, 4)
+    modelviews : (D, 4, 4) array
     kinds : sequence of int  of these matrices
     indices : sequence or None    those of each draw; None if they have none
     """
@@ -181,7 +181,7 @@ class AlikeDraws(Sequence[Draw]):
         self,
         like: Draw,
         vertices: JoinedVertices | GivenVertices,
-        modelviews: Sequence[np.ndarray],
+        modelviews: np.ndarray,
         kinds: Sequence[int],
         indices: Sequence[np.ndarray] | None = None,
     ) -> None:

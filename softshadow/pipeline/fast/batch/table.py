@@ -129,7 +129,7 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
     """Return the draws of a run as arrays; without their indices if nobody reads them."""
     arrays, layout, attributes = run.arrays, run.layout, Attributes(draws)
     rows = np.empty((len(draws), FLOATS), np.float32)
-    rows[:, MODELVIEW:PROJECTION] = _matrices(_modelviews(draws))
+    rows[:, MODELVIEW:PROJECTION] = _modelviews(draws)
     rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, attrgetter("projection")))
     if not arrays.color:
         rows[:, COLOR:NORMAL] = attributes.constant_colors()
@@ -158,12 +158,18 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
     )
 
 
-def _modelviews(draws: Sequence[Draw]) -> list[np.ndarray]:
-    """Return the modelview matrix of each draw."""
-    matrices: list[np.ndarray] = []
-    for part in parts_of(draws):
-        matrices += part.modelviews if isinstance(part, AlikeDraws) else [draw.modelview for draw in part]
-    return matrices
+def _modelviews(draws: Sequence[Draw]) -> np.ndarray:
+    """Return the modelview matrix of each draw as a row of 16 numbers; one row if all have the same."""
+    rows = [
+        part.modelviews.reshape(-1, 16)
+        if isinstance(part, AlikeDraws)
+        else _matrices([draw.modelview for draw in part])
+        for part in parts_of(draws)
+    ]
+    if len(rows) == 1:
+        return rows[0]
+    counts = map(len, parts_of(draws))
+    return np.concatenate([np.broadcast_to(own, (count, 16)) for own, count in zip(rows, counts, strict=True)])
 
 
 def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
