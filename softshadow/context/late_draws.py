@@ -65,6 +65,11 @@ class LateDraw(NamedTuple):
     end: int | None = None
 
     @property
+    def n_numbers(self) -> int:
+        """How many numbers the positions are."""
+        return (len(self.primitive.positions) if self.end is None else self.end) - self.start
+
+    @property
     def positions(self) -> list[float]:
         """x, y, z, w of each vertex."""
         positions = self.primitive.positions
@@ -159,7 +164,7 @@ class LateDraws:
     def add(self, draw: LateDraw | MovedDraw) -> bool:
         """Let a draw wait; return whether so many wait that they should be taken."""
         self.draws.append(draw)
-        self._n_numbers += len(draw.positions) if type(draw) is LateDraw else MOVED_NUMBERS
+        self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS
 
     def take(self) -> Iterator[LateCommands]:

@@ -10,7 +10,7 @@ of the window for each, one with many samples of a light accumulates the picture
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import takewhile
+from itertools import islice, takewhile
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Storage
@@ -95,7 +95,7 @@ class DrawQueue:
 
     def _let_wait(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> None:
         """Let draws of a kind and of one state wait, with so many vertices."""
-        first = self._place_in_batch(kind, commands)
+        first = self._add_to_batch(kind.batch, commands)
         self._add_segment(kind, commands[0], first, first + len(commands))
         self._n_commands += len(commands)
         self._n_vertices += n_vertices
@@ -131,13 +131,15 @@ class DrawQueue:
         is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
         if is_full or not (self._are_small or all(kind is self._kind for kind in known)):
             self.carry_out()
-        are_apart = len({kind.batch for kind in known}) == len(parts)
-        nexts = [self._place_in_batch(kind, part) if are_apart else 0 for kind, part in zip(known, parts, strict=True)]
+        if len({kind.batch for kind in known}) == len(parts):
+            places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(known, parts, strict=True)}
+        else:
+            places = {number: self._add_to_batch(number, own) for number, own in _by_batch(known, parts, turns).items()}
         for number, count in turns:
-            kind, part, first = known[number], parts[number], nexts[number]
-            place = first if are_apart else self._place_in_batch(kind, part[first : first + count])
-            self._add_segment(kind, part[0], place, place + count)
-            nexts[number] = first + count
+            kind = known[number]
+            place = places[kind.batch]
+            places[kind.batch] = end = place + count
+            self._add_segment(kind, parts[number][0], place, end)
         self._n_commands += n_draws
         self._n_vertices += n_vertices
         last, _ = turns[-1]
@@ -146,11 +148,11 @@ class DrawQueue:
             self.carry_out()
         return True
 
-    def _place_in_batch(self, kind: Kind, commands: Sequence[Draw]) -> int:
-        """Append draws to the batch of a kind; return the place of the first one."""
-        batch = self._batches.get(kind.batch)
+    def _add_to_batch(self, number: int, commands: Sequence[Draw]) -> int:
+        """Append draws to a batch; return the place of the first one."""
+        batch = self._batches.get(number)
         if batch is None:
-            batch = self._batches[kind.batch] = DrawList()
+            batch = self._batches[number] = DrawList()
         place = len(batch)
         batch.add(commands)
         return place
@@ -295,3 +297,14 @@ class DrawQueue:
         self._textures, self._framebuffers, self._is_copied = set(), set(), False
         self._n_commands, self._n_vertices, self._n_bytes, self._are_small = 0, 0, 0, True
         execute_waiting(batches, segments, self._storage)
+
+
+def _by_batch(
+    kinds: Sequence[Kind], parts: Sequence[Sequence[Draw]], turns: Sequence[tuple[int, int]]
+) -> dict[int, list[Draw]]:
+    """Return the draws of each batch in their order; `turns` as for `DrawQueue.add_in_turns`."""
+    draws: dict[int, list[Draw]] = {kind.batch: [] for kind in kinds}
+    rest = list(map(iter, parts))
+    for number, count in turns:
+        draws[kinds[number].batch] += islice(rest[number], count)
+    return draws
