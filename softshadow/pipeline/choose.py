@@ -242,13 +242,18 @@ def _hides_little(geometry: Geometry, fragments: int, region: Region) -> bool:
     return not is_textured and layers < FEW_PLAIN_LAYERS and fragments >= LARGE_PLAIN_TRIANGLE * n_triangles
 
 
+def can_join_others(plan: Plan, part: Part) -> bool:
+    """Return whether a segment may be drawn with others, as far as its fragments and triangles decide it."""
+    most = sys.maxsize if plan.in_order and not plan.passing_spans else FEW_FRAGMENTS
+    return plan.forward and 0 <= part.fragments <= most and part.end - part.first < MANY_TRIANGLES
+
+
 def joins_others(plan: Plan, state: State, target: Framebuffer, part: Part) -> SegmentState | None:
     """Return the fragment state of a segment that is drawn with others (`fast.segment_groups`), or None.
 
     It is one of few fragments, or one that is drawn in order in any case.
     """
-    most = sys.maxsize if plan.in_order and not plan.passing_spans else FEW_FRAGMENTS
-    if not plan.forward or not 0 <= part.fragments <= most or part.end - part.first >= MANY_TRIANGLES:
+    if not can_join_others(plan, part):
         return None
     if state.polygon.upper_edges:  # those of a group have one rule for edges
         return None

@@ -14,7 +14,7 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import Storage
 from softshadow.jit import announce_compiling
-from softshadow.pipeline.choose import joins_others
+from softshadow.pipeline.choose import can_join_others, joins_others
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage
 from softshadow.pipeline.draw_kinds import Kind
 from softshadow.pipeline.execute import execute
@@ -100,6 +100,8 @@ def _draw_segment(segment: Segment, part: Part, group: Group | None, storage: St
     """
     plan, command, query = segment.kind.plan, segment.command, segment.query
     state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
+    if group and not query and can_join_others(plan, part) and group.takes_again(command, part):
+        return group
     counts = FragmentCounts.zero(only_passed=True) if query else None
     if counts is not None:
         if not segment.kind.counting:
@@ -113,10 +115,10 @@ def _draw_segment(segment: Segment, part: Part, group: Group | None, storage: St
         if counts is not None:
             storage.note_passed(query, counts.passed)
         return None
-    if group and group.takes(state, numbers, part, target, query):
+    if group and group.takes(command, numbers, part, target, query):
         return group
     if group:
         group.draw()
     group = Group(target, storage)
-    group.takes(state, numbers, part, target, query)
+    group.takes(command, numbers, part, target, query)
     return group

@@ -35,6 +35,7 @@ from softshadow.pipeline.draw_kinds import Kind, Kinds
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.execute_waiting import Segment, execute_waiting
 from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST
+from softshadow.state import State
 
 try:
     from softshadow.pipeline.fast.any_state import FILL_KERNELS
@@ -95,8 +96,9 @@ class DrawQueue:
 
     def _let_wait(self, kind: Kind, commands: Sequence[Draw], n_vertices: int) -> None:
         """Let draws of a kind and of one state wait, with so many vertices."""
-        first = self._add_to_batch(kind.batch, commands)
-        self._add_segment(kind, commands[0], first, first + len(commands))
+        first, query = self._add_to_batch(kind.batch, commands), self._storage.active_query
+        self._add_segment(kind, commands[0], first, first + len(commands), query)
+        self._note_uses(kind, commands[0].state, query)
         self._n_commands += len(commands)
         self._n_vertices += n_vertices
 
@@ -135,15 +137,18 @@ class DrawQueue:
             places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(known, parts, strict=True)}
         else:
             places = {number: self._add_to_batch(number, own) for number, own in _by_batch(known, parts, turns).items()}
+        firsts, query = [part[0] for part in parts], self._storage.active_query
         for number, count in turns:
             kind = known[number]
             place = places[kind.batch]
             places[kind.batch] = end = place + count
-            self._add_segment(kind, parts[number][0], place, end)
+            self._add_segment(kind, firsts[number], place, end, query)
+        for kind, first in zip(known, firsts, strict=True):
+            self._note_uses(kind, first.state, query)
         self._n_commands += n_draws
         self._n_vertices += n_vertices
         last, _ = turns[-1]
-        self._kind, self._like = known[last], parts[last][0]
+        self._kind, self._like = known[last], firsts[last]
         if self._n_commands == MOST_DRAWS:
             self.carry_out()
         return True
@@ -157,17 +162,20 @@ class DrawQueue:
         batch.add(commands)
         return place
 
-    def _add_segment(self, kind: Kind, command: Draw, first: int, end: int) -> None:
+    def _add_segment(self, kind: Kind, command: Draw, first: int, end: int, query: int) -> None:
         """Append draws of a kind and of one state, which have these places in their batch; `command` is one of them."""
-        state, last, query = command.state, self._segment, self._storage.active_query
-        if last is not None and last.kind is kind and last.end == first and last.continues_with(state, query):
+        last = self._segment
+        if last is not None and last.kind is kind and last.end == first and last.continues_with(command.state, query):
             last.end = end
         else:
             self._segment = Segment(kind, command, first, end, query)
             self._segments.append(self._segment)
-            self._queries.add(query)
-            self._textures.update(kind.names)
-            self._framebuffers.add(state.draw_framebuffer)
+
+    def _note_uses(self, kind: Kind, state: State, query: int) -> None:
+        """Note what draws of a kind, under this state, read and write."""
+        self._queries.add(query)
+        self._textures.update(kind.names)
+        self._framebuffers.add(state.draw_framebuffer)
 
     def _add_others(self, first: Draw, others: Sequence[Draw]) -> bool:
         """Let draws wait that continue the first one, the last that waits; do nothing if they are many or large."""

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softshadow.framebuffer import Framebuffer, Storage
+from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.segments import Part
 from softshadow.pipeline.fast.drawn_surfaces import Watch
 from softshadow.pipeline.fast.forward import (
@@ -91,15 +92,15 @@ class Group:
         self._places: dict[int, tuple[int, Texture]] = {}  # of the texels of textures, by the textures' identity
         self._regions: dict[tuple[int, ...], Region] = {}  # by the identity of what they depend on
         self._known: dict[tuple[int, ...], Taken] = {}  # by the identity of what a draw has in common with later ones
+        # by the identity of a draw and a batch: a program draws shapes of a few kinds in turn
+        self._again: dict[tuple[int, int], tuple[Draw, Taken, SegmentState]] = {}
         self._n_triangles, self._work, self._columns = 0, 0, 0
 
-    def takes(self, state: State, numbers: SegmentState, part: Part, target: Framebuffer, query: int) -> bool:
+    def takes(self, command: Draw, numbers: SegmentState, part: Part, target: Framebuffer, query: int) -> bool:
         """Add a draw, whose fragments a query counts if it is not 0; return False where it belongs to another group."""
-        count = part.end - part.first
-        if self._rows and (
-            target is not self._target or self._n_triangles + count > TRIANGLES or len(self._rows) == SEGMENTS
-        ):
+        if self._rows and (target is not self._target or not self._has_room(part)):
             return False
+        state = command.state
         key = id(state), id(numbers), id(part.batch), id(part.program)
         taken = self._known.get(key)
         if taken is None:
@@ -108,12 +109,29 @@ class Group:
                 return False
             self._known[key] = taken
             self._taken.append(taken)
+        self._again[id(command), id(part.batch)] = command, taken, numbers
+        self._add(taken, numbers, part, query)
+        return True
+
+    def takes_again(self, command: Draw, part: Part) -> bool:
+        """Add a draw if others of the same command and batch have been added last; no query counts its fragments."""
+        known = self._again.get((id(command), id(part.batch)))
+        if known is None or not self._has_room(part):
+            return False
+        _, taken, numbers = known
+        self._add(taken, numbers, part, 0)
+        return True
+
+    def _has_room(self, part: Part) -> bool:
+        return self._n_triangles + part.end - part.first <= TRIANGLES and len(self._rows) < SEGMENTS
+
+    def _add(self, taken: Taken, numbers: SegmentState, part: Part, query: int) -> None:
+        count = part.end - part.first
         taken.triangles.end = part.end
         self._rows.append((taken.place, part.first, part.end))
         self._queries.append(query)
         self._n_triangles += count
         self._work += work_of(numbers, part.fragments, count)
-        return True
 
     def _take_first(self, state: State, numbers: SegmentState, part: Part) -> Taken | None:
         """Return what a draw has in common with later ones; None if its textures have no place in this group."""
@@ -152,6 +170,7 @@ class Group:
             del self._places[key]
         if changing:
             self._known.clear()
+            self._again.clear()
         return True
 
     def _region_of(self, state: State) -> Region:
