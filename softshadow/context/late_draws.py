@@ -8,8 +8,8 @@ such draws wait with their numbers or arrays until something else is drawn, or s
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from itertools import chain, groupby, islice
-from typing import Any, NamedTuple, overload
+from itertools import chain, groupby, islice, repeat
+from typing import Any, NamedTuple, cast, overload
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from softshadow.pipeline.geometry.separate import separated
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
+SEVERAL = 4  # draws that are made later: fewer are made at once in less time
 MOVED_NUMBERS = 16  # as which a draw counts whose arrays have been made
 SINGLE = 64  # bytes of a matrix in single precision
 MOST_FORMS = 1024  # as many as there are states that are found again
@@ -92,6 +93,16 @@ class MovedDraw(NamedTuple):
     indices: np.ndarray | None
     modelview: bytes
     modelview_kind: int
+
+
+def _moved(draws: Sequence[MovedDraw]) -> Sequence[Draw]:
+    """Return draws that are alike."""
+    like, vertices, indices = draws[0].like, [draw.vertices for draw in draws], [draw.indices for draw in draws]
+    matrices, kinds = _matrices(draws), [draw.modelview_kind for draw in draws]
+    own = [each for each in indices if each is not None]
+    if len(draws) < SEVERAL or 0 < len(own) < len(draws):
+        return moved_draws(like, zip(vertices, indices, matrices, kinds, strict=True))
+    return AlikeDraws(like, GivenVertices(vertices), matrices, kinds, own or None)
 
 
 def _matrices(draws: Sequence[LateDraw | MovedDraw]) -> np.ndarray:
@@ -180,8 +191,6 @@ class LateDraws:
 
     def _commands_of(self, draws: Sequence[LateDraw | MovedDraw], keys: Sequence[int]) -> LateCommands:
         """Return draws, of which those with equal keys are a part."""
-        if len(set(keys)) == 1:
-            return LateCommands([self._part(draws)], [(0, len(draws))])
         numbers: dict[int, int] = {}
         alike: list[list[LateDraw | MovedDraw]] = []
         for key, draw in zip(keys, draws, strict=True):
@@ -190,27 +199,40 @@ class LateDraws:
                 alike.append([])
             alike[number].append(draw)
         turns = [(numbers[key], len(list(same))) for key, same in groupby(keys)]
-        return LateCommands([self._part(same) for same in alike], turns)
+        parts: dict[int, Sequence[Draw]] = {}
+        pairs: dict[Hashable, list[tuple[int, list[LateDraw]]]] = {}
+        for number, same in enumerate(alike):
+            if isinstance(same[0], MovedDraw):
+                parts[number] = _moved(cast(list[MovedDraw], same))
+            else:
+                group = pairs.setdefault((same[0].form.columns, id(same[0].form.texcoords)), [])
+                group.append((number, cast(list[LateDraw], same)))
+        for group in pairs.values():
+            group.sort(key=lambda part: len(part[1]) >= SEVERAL)
+            parts.update(zip([number for number, _ in group], self._pairs([own for _, own in group]), strict=True))
+        return LateCommands([parts[number] for number in range(len(alike))], turns)
 
-    def _part(self, draws: Sequence[LateDraw | MovedDraw]) -> Sequence[Draw]:
-        """Return draws that are alike."""
-        moved = [draw for draw in draws if isinstance(draw, MovedDraw)]
-        if not moved:
-            return self._part_of_pairs([draw for draw in draws if isinstance(draw, LateDraw)])
-        vertices, indices = [draw.vertices for draw in moved], [draw.indices for draw in moved]
-        modelviews, kinds = _matrices(moved), [draw.modelview_kind for draw in moved]
-        own = [each for each in indices if each is not None]
-        if not own or len(own) == len(moved):
-            return AlikeDraws(moved[0].like, GivenVertices(vertices), modelviews, kinds, own or None)
-        return moved_draws(moved[0].like, zip(vertices, indices, modelviews, kinds, strict=True))
-
-    def _part_of_pairs(self, draws: Sequence[LateDraw]) -> Sequence[Draw]:
-        """Return draws of pairs that are alike."""
-        kinds, counts = [draw.modelview_kind for draw in draws], [draw.counts for draw in draws]
-        part = AlikeDraws(draws[0].form.like, self._vertices(draws), _matrices(draws), kinds)
-        if not any(counts):
-            return part
-        return [separated(each, own) if own else each for each, own in zip(part, counts, strict=True)]
+    def _pairs(self, parts: Sequence[Sequence[LateDraw]]) -> Iterator[Sequence[Draw]]:
+        """Yield parts of draws of pairs: their vertices have the same attributes; those of few draws come first."""
+        draws = [draw for part in parts for draw in part]
+        vertices, matrices, kinds = self._vertices(draws), _matrices(draws), [draw.modelview_kind for draw in draws]
+        n_few = sum([len(part) for part in parts if len(part) < SEVERAL])
+        few, start = iter(vertices.of(0, n_few).split()), 0
+        for part in parts:
+            like, end = part[0].form.like, start + len(part)
+            made: Sequence[Draw]
+            if end <= n_few:
+                own = islice(few, len(part))
+                made = moved_draws(like, zip(own, repeat(None), matrices[start:end], kinds[start:end], strict=False))
+            else:
+                made = AlikeDraws(like, vertices.of(start, end), matrices[start:end], kinds[start:end])
+            counts = [draw.counts for draw in part]
+            if any(counts):
+                made = [
+                    separated(each, several) if several else each for each, several in zip(made, counts, strict=True)
+                ]
+            yield made
+            start = end
 
     def _vertices(self, draws: Sequence[LateDraw]) -> JoinedVertices:
         """Return the vertices of draws with the same attributes."""

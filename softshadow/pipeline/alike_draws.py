@@ -45,9 +45,11 @@ class Attribute(NamedTuple):
             return map(views.__getitem__, counts)
         return [_repeated(rows, number, count) for number, count in enumerate(counts)]
 
-    def of_first(self, count: int) -> Attribute:
-        """Return that of the first draw, which has so many vertices."""
-        return Attribute(self.rows[: 1 if self.is_constant else count], self.is_constant)
+    def of(self, draws: slice, vertices: slice) -> Attribute:
+        """Return that of some draws, which have these vertices."""
+        if not self.is_constant:
+            return Attribute(self.rows[vertices], False)
+        return self if len(self.rows) == 1 else Attribute(self.rows[draws], True)
 
 
 def split(rows: np.ndarray, ends: Sequence[int]) -> list[np.ndarray]:
@@ -108,13 +110,20 @@ class JoinedVertices(NamedTuple):
         columns = split(self.position, ends), self.color.split(ends), self.normal.split(ends)
         return list(map(Vertices, *columns, texcoords))
 
+    def of(self, first: int, end: int) -> JoinedVertices:
+        """Return those of the draws from one to another."""
+        if end - first == len(self.counts):
+            return self
+        start = sum(self.counts[:first])
+        draws, vertices = slice(first, end), slice(start, start + sum(self.counts[first:end]))
+        units = {unit: rows[vertices] for unit, rows in self.units.items()}
+        color, normal = self.color.of(draws, vertices), self.normal.of(draws, vertices)
+        return JoinedVertices(self.counts[draws], self.position[vertices], color, normal, self.constants, units)
+
     @property
     def first(self) -> Vertices:
         """The vertices of the first draw."""
-        count = self.counts[0]
-        color, normal = self.color.of_first(count), self.normal.of_first(count)
-        units = {unit: rows[:count] for unit, rows in self.units.items()}
-        (own,) = JoinedVertices((count,), self.position[:count], color, normal, self.constants, units).split()
+        (own,) = self.of(0, 1).split()
         return own
 
     @property
