@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from softshadow.context.late_draws import LateCommands, LateDraw, LateDraws, MovedDraw
+from softshadow.context.late_commands import LateCommands
+from softshadow.context.late_draws import LateDraws
+from softshadow.context.late_forms import LateDraw, MovedDraw
 from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
@@ -145,7 +147,7 @@ class CommandStream:
             if not self._let_wait(late):
                 for command in late:
                     self.carry_out(command)
-            elif self.frame.extend_late(late, late.parts):
+            elif self.frame.extend_late(late):
                 self.frame.shorten(self.objects_after_all())
 
     def _let_wait(self, late: LateCommands) -> bool:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from softshadow.context.late_draws import LateDraw, LateForm
+from softshadow.context.late_forms import LateDraw, LateForm
 from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw, Origin, Vertices
 from softshadow.pipeline.geometry.separate import can_be_separated, separated

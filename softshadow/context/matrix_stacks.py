@@ -85,6 +85,7 @@ class MatrixStack:
         self._memory = bytearray(CAPACITY)
         self._queue = np.frombuffer(self._memory, np.float64)
         self.end, self.level = 0, 0
+        self._drawn = b""  # by the latest draw
 
     def __len__(self) -> int:
         return len(self.below) + 1
@@ -138,7 +139,10 @@ class MatrixStack:
         if self.end:
             self._compute()
         kind, start = self.unresolved_kind, len(self.below) * self._size
-        return bytes(self._bytes[start : start + self._size]), self.kind if kind & UNKNOWN else kind
+        matrix = self._bytes[start : start + self._size]
+        if matrix != self._drawn:  # else it is the same object, so that equal ones are known
+            self._drawn = bytes(matrix)
+        return self._drawn, self.kind if kind & UNKNOWN else kind
 
     # -- stack ---------------------------------------------------------------------------------------------------------
     def push(self) -> bool:

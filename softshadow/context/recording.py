@@ -7,17 +7,17 @@ and begins with a copy of the storage as they left it. Replayed from there, it g
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
 
 import numpy as np
 
+from softshadow.context.late_commands import LateCommands
 from softshadow.errors import HistoryCut
 from softshadow.framebuffer import Framebuffer, Storage, default_framebuffer
 from softshadow.image import Image
-from softshadow.pipeline.alike_draws import AlikeDraws, GivenVertices
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
 
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
@@ -56,23 +56,16 @@ class Contents:
                 if array is not None:
                     self._add_array(array)
 
-    def add_late(self, parts: Sequence[Sequence[Draw]]) -> None:
-        """Count draws, some of which are not made yet."""
-        for part in parts:
-            if not isinstance(part, AlikeDraws):
-                for draw in part:
-                    self.add(draw)
-                continue
-            self.commands += len(part)
-            self.new_bytes += COMMAND_BYTES * len(part)
-            if isinstance(part.vertices, GivenVertices):
-                for vertices in part.vertices.vertices:
-                    self._add_vertices(vertices)
-            else:
-                for array in part.vertices.arrays:
-                    self._add_array(array)
-            for indices in part.indices or ():
-                self._add_indices(indices)
+    def add_late(self, draws: LateCommands) -> None:
+        """Count draws that may not be made yet."""
+        self.commands += len(draws)
+        self.new_bytes += COMMAND_BYTES * len(draws)
+        for array in draws.arrays:
+            self._add_array(array)
+        for vertices in draws.vertices:
+            self._add_vertices(vertices)
+        for indices in draws.indices:
+            self._add_indices(indices)
 
     def _add_indices(self, indices: np.ndarray) -> None:
         if id(indices) not in self._sizes:
@@ -162,7 +155,7 @@ class Frame:
 
     def __post_init__(self) -> None:
         self.made: list[Command]
-        self.following: list[Sequence[Command]]  # behind those that are made
+        self.following: list[Collection[Command]]  # behind those that are made
         self._older, self._newer = Contents(), Contents()  # before and after the mark
         self._uncounted: list[Draw] = []  # draws that `_newer` does not contain yet
         self._most_bytes = 0  # that it has at most with them
@@ -201,13 +194,13 @@ class Frame:
                 is_long = self._note(draw)
         return is_long
 
-    def extend_late(self, draws: Sequence[Draw], parts: Sequence[Sequence[Draw]]) -> bool:
-        """Record draws that are made when someone looks at them; return what `append` returns. `parts` has all."""
+    def extend_late(self, draws: LateCommands) -> bool:
+        """Record draws that are made when someone looks at them; return what `append` returns."""
         self.following.append(draws)
         if self.history_bytes is None:
             return False
         before = self._newer.new_bytes
-        self._newer.add_late(parts)
+        self._newer.add_late(draws)
         self._most_bytes += self._newer.new_bytes - before
         return self._is_long()
 

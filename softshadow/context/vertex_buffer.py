@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from softshadow.context.command_stream import CommandStream
 from softshadow.context.joined_pairs import JoinedPairs
-from softshadow.context.late_draws import LateDraw
+from softshadow.context.late_forms import LateDraw
 from softshadow.context.primitive import Primitive
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.geometry import offset_mode_of

@@ -15,7 +15,7 @@ from typing import Any, cast
 
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive, VertexBuffer
-from softshadow.context.late_draws import LateDraw
+from softshadow.context.late_forms import LateDraw
 from softshadow.context.pending_attributes import PendingAttributes
 from softshadow.context.vertex_buffer import NO_FORMAT
 from softshadow.gl.materials import follow_color

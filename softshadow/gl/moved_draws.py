@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from softshadow.context import Context
-from softshadow.context.late_draws import MovedDraw
+from softshadow.context.late_forms import MovedDraw
 from softshadow.pipeline.commands import Draw, Vertices
 
 MOST_VERTICES = 256  # of a draw that waits: of more, its own work is most of the time

@@ -13,7 +13,7 @@ from operator import is_
 from softshadow import tokens as gl
 from softshadow.context import Context, Primitive
 from softshadow.context.joined_pairs import LateVertices, Told
-from softshadow.context.late_draws import NO_VERTICES, LateDraw, LateForm
+from softshadow.context.late_forms import NO_VERTICES, LateDraw, LateForm
 from softshadow.gl.constant_attributes import Carried, carried_of, kept_constants
 from softshadow.gl.moved_draws import is_unmarked
 from softshadow.gl.vertex_format import vertices_of

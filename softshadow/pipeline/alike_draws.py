@@ -16,8 +16,6 @@ import numpy as np
 
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 
-Rows = tuple[np.ndarray, int]  # an attribute of some draws, and how many draws these are: as `Attribute.rows`
-
 
 class ConstantTexcoords(Protocol):
     """Values of the texture coordinates of all units."""
@@ -35,15 +33,15 @@ class Attribute(NamedTuple):
     rows: np.ndarray
     is_constant: bool
 
-    def split(self, ends: Sequence[int]) -> Iterable[np.ndarray]:
-        """Return the rows of each draw; `ends` are those of the vertices before, and of each draw."""
+    def split(self, counts: Sequence[int], ends: Sequence[int]) -> Iterable[np.ndarray]:
+        """Return the rows of each draw, by its number of vertices; `ends` as for `split`."""
         if not self.is_constant:
             return split(self.rows, ends)
-        rows, counts = self.rows, [end - start for start, end in pairwise(ends)]
-        if len(rows) == 1:
-            views = {count: _repeated(rows, 0, count) for count in set(counts)}
-            return map(views.__getitem__, counts)
-        return [_repeated(rows, number, count) for number, count in enumerate(counts)]
+        rows = self.rows
+        if len(rows) > 1:
+            return [_repeated(rows, number, count) for number, count in enumerate(counts)]
+        views = {count: _repeated(rows, 0, count) for count in set(counts)}
+        return [views[count] for count in counts]
 
     def of(self, draws: slice, vertices: slice) -> Attribute:
         """Return that of some draws, which have these vertices."""
@@ -54,7 +52,7 @@ class Attribute(NamedTuple):
 
 def split(rows: np.ndarray, ends: Sequence[int]) -> list[np.ndarray]:
     """Return the rows of each draw; `ends` are those of the vertices before, and of each draw."""
-    return [rows[start:end] for start, end in pairwise(ends)]
+    return [rows] if len(ends) == 2 else [rows[start:end] for start, end in pairwise(ends)]
 
 
 def _repeated(rows: np.ndarray, number: int, count: int) -> np.ndarray:
@@ -78,23 +76,27 @@ class JoinedVertices(NamedTuple):
     units: dict[int, np.ndarray]
 
     @property
-    def positions(self) -> Sequence[np.ndarray]:
-        """The positions (V, 4) of all draws."""
-        return (self.position,)
+    def positions(self) -> list[np.ndarray]:
+        """The positions (V, 4) of all draws, as a list of arrays to be joined."""
+        return [self.position]
 
     @property
-    def colors(self) -> Sequence[Rows]:
-        """The colours of all draws."""
-        return ((self.color.rows, len(self.counts)),)
+    def colors(self) -> list[np.ndarray]:
+        """The colours, as `positions`."""
+        return [self.color.rows]
 
     @property
-    def normals(self) -> Sequence[Rows]:
-        """The normals of all draws."""
-        return ((self.normal.rows, len(self.counts)),)
+    def normals(self) -> list[np.ndarray]:
+        """The normals, as `positions`."""
+        return [self.normal.rows]
 
-    def texcoords(self, unit: int) -> Sequence[np.ndarray]:
-        """Return the coordinates (V, 4) of a texture unit, where it has an array of them."""
-        return (self.units[unit],)
+    def constant(self, name: str) -> np.ndarray:
+        """Return the "color" or "normal" of each draw, where it is constant: (D, k), or (1, k) if all are equal."""
+        return (self.color if name == "color" else self.normal).rows
+
+    def texcoords(self, unit: int) -> list[np.ndarray]:
+        """Return the coordinates of a texture unit, as `positions`."""
+        return [self.units[unit]]
 
     def constant_texcoords(self, unit: int) -> Sequence[np.ndarray]:
         """Return the coordinates (4,) of a texture unit in each draw, where they are constants."""
@@ -102,12 +104,13 @@ class JoinedVertices(NamedTuple):
 
     def split(self) -> list[Vertices]:
         """Return the vertices of each draw."""
-        ends = list(accumulate(self.counts, initial=0))
-        texcoords: Iterable[tuple[np.ndarray, ...]] = map(self.constants.rows, self.counts)
+        counts = self.counts
+        ends = list(accumulate(counts, initial=0))
+        texcoords: Iterable[tuple[np.ndarray, ...]] = map(self.constants.rows, counts)
         for unit, rows in self.units.items():
             parts = zip(texcoords, split(rows, ends), strict=True)
             texcoords = [(*each[:unit], own, *each[unit + 1 :]) for each, own in parts]
-        columns = split(self.position, ends), self.color.split(ends), self.normal.split(ends)
+        columns = split(self.position, ends), self.color.split(counts, ends), self.normal.split(counts, ends)
         return list(map(Vertices, *columns, texcoords))
 
     def of(self, first: int, end: int) -> JoinedVertices:
@@ -143,18 +146,31 @@ class GivenVertices:
 
     def __init__(self, vertices: Sequence[Vertices]) -> None:
         self.vertices = vertices
-        self.positions = [each.position for each in vertices]
-        self.counts = list(map(len, self.positions))
+
+    @cached_property
+    def counts(self) -> list[int]:
+        """How many vertices each draw has."""
+        return list(map(len, self.positions))
 
     @property
-    def colors(self) -> list[Rows]:
+    def positions(self) -> list[np.ndarray]:
+        """The positions of each draw."""
+        return [each.position for each in self.vertices]
+
+    @property
+    def colors(self) -> list[np.ndarray]:
         """The colours of each draw."""
-        return [(each.color, 1) for each in self.vertices]
+        return [each.color for each in self.vertices]
 
     @property
-    def normals(self) -> list[Rows]:
+    def normals(self) -> list[np.ndarray]:
         """The normals of each draw."""
-        return [(each.normal, 1) for each in self.vertices]
+        return [each.normal for each in self.vertices]
+
+    def constant(self, name: str) -> np.ndarray:
+        """Return the "color" or "normal" of each draw, where it is constant: (D, k), or (1, k) if all are the same."""
+        rows = self.colors if name == "color" else self.normals
+        return rows[0][:1] if len(set(map(id, rows))) == 1 else np.concatenate([each[:1] for each in rows])
 
     def texcoords(self, unit: int) -> list[np.ndarray]:
         """Return the coordinates of a texture unit in each draw."""
@@ -181,7 +197,7 @@ class AlikeDraws(Sequence[Draw]):
     ----------
     like : Draw              its vertices, indices and matrix are nobody's
     vertices : JoinedVertices or GivenVertices
-    modelviews : (D, 4, 4) array
+    modelviews : (D, 4, 4) array, or (1, 4, 4) if all draws have the same matrix
     kinds : sequence of int  of these matrices
     indices : sequence or None    those of each draw; None if they have none
     """
@@ -221,13 +237,19 @@ class AlikeDraws(Sequence[Draw]):
     def draws(self) -> list[Draw]:
         """All draws."""
         indices = repeat(None) if self.indices is None else self.indices
-        moved = zip(self.vertices.split(), indices, self.modelviews, self.kinds, strict=False)
+        modelviews = each_of(self.modelviews, len(self))
+        moved = zip(self.vertices.split(), indices, modelviews, self.kinds, strict=False)
         return [self.first, *moved_draws(self.like, moved)[1:]]
 
     @property
     def counts(self) -> Sequence[int]:
         """How many vertices each draw names."""
         return self.vertices.counts if self.indices is None else list(map(len, self.indices))
+
+
+def each_of(matrices: np.ndarray, count: int) -> Iterable[np.ndarray]:
+    """Return the matrix of each of so many draws, of (D, 4, 4) matrices, or (1, 4, 4) if all have the same."""
+    return repeat(matrices[0], count) if len(matrices) == 1 else matrices
 
 
 class DrawList(Sequence[Draw]):
@@ -247,10 +269,15 @@ class DrawList(Sequence[Draw]):
         self._n_draws += len(draws)
         if isinstance(draws, AlikeDraws):
             self.parts.append(draws)
-        elif self.parts and isinstance(self.parts[-1], list):
+        elif self.parts and type(self.parts[-1]) is list:
             self.parts[-1] += draws
         else:
             self.parts.append(list(draws))
+
+    @property
+    def plain(self) -> Sequence[Draw]:
+        """The only part, if there is one; else this."""
+        return self.parts[0] if len(self.parts) == 1 else self
 
     def __len__(self) -> int:
         return self._n_draws
@@ -278,9 +305,11 @@ def vertices_of(part: Sequence[Draw]) -> JoinedVertices | GivenVertices:
 
 def of_each(draws: Sequence[Draw], value: Callable[[Draw], Any]) -> list[Any]:
     """Return a value of each draw that depends on nothing in which alike draws differ."""
+    if type(draws) is list:
+        return list(map(value, draws))
     values: list[Any] = []
     for part in parts_of(draws):
-        values += [value(part.like)] * len(part) if isinstance(part, AlikeDraws) else map(value, part)
+        values += repeat(value(part.like), len(part)) if isinstance(part, AlikeDraws) else map(value, part)
     return values
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from softshadow import pipeline
 from softshadow.framebuffer import Storage
 from softshadow.jit import announce_compiling
+from softshadow.pipeline.alike_draws import DrawList
 from softshadow.pipeline.choose import can_join_others, joins_others
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage
 from softshadow.pipeline.draw_kinds import Kind
@@ -52,9 +53,7 @@ class Segment:
         return is_in_place and self.query == query
 
 
-def execute_waiting(
-    batches: Mapping[int, Sequence[Draw]], commands: Sequence[Segment | Command], storage: Storage
-) -> None:
+def execute_waiting(batches: Mapping[int, DrawList], commands: Sequence[Segment | Command], storage: Storage) -> None:
     """Carry out commands; `batches` has the draws of all segments among them, by the numbers of their kinds."""
     if not BATCH_KERNELS.are_compiled():
         announce_compiling()
@@ -75,14 +74,14 @@ def execute_waiting(
             group.draw()
 
 
-def _parts_of(segments: Sequence[Segment], batches: Mapping[int, Sequence[Draw]], storage: Storage) -> dict[int, Part]:
+def _parts_of(segments: Sequence[Segment], batches: Mapping[int, DrawList], storage: Storage) -> dict[int, Part]:
     """Return the triangles of each segment, by its identity."""
     parts: dict[int, Part] = {}
     of_batch: dict[int, list[Segment]] = {number: [] for number in batches}
     for segment in segments:
         of_batch[segment.kind.batch].append(segment)
     for number, own in of_batch.items():
-        draws, kind = batches[number], own[0].kind
+        draws, kind = batches[number].plain, own[0].kind
         target = storage.framebuffers[kind.run.state.draw_framebuffer]
         batch = geometry_of(kind.run, kind.setting, draws, target, storage)
         if len(own) == 1:

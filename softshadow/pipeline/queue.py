@@ -45,6 +45,7 @@ except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
 MOST_BYTES = 1 << 24  # of texels that wait
+MANY = 12  # draws that are not looked at one by one
 
 
 class DrawQueue:
@@ -119,7 +120,7 @@ class DrawQueue:
         return 1 + len(others) if self._add_others(commands[0], others) else 1
 
     def add_in_turns(self, parts: Sequence[Sequence[Draw]], turns: Sequence[tuple[int, int]]) -> bool:
-        """Let small draws wait; return False, and do nothing, if some must be carried out at once, or are large.
+        """Let small draws wait; return False, and do nothing, if they must be looked at one by one.
 
         The draws of each part differ in vertices and modelview matrix only, as those of `add_like`. `turns` are numbers
         of parts, and how many of its next draws come there: a program that changes the mode or the state between small
@@ -131,7 +132,10 @@ class DrawQueue:
             return False
         n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
         is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        if is_full or not (self._are_small or all(kind is self._kind for kind in known)):
+        belongs = self._are_small or all(kind is self._kind for kind in known)
+        if not belongs and n_draws < MANY:
+            return False  # the first ones may belong to the large draws that wait
+        if is_full or not belongs:
             self.carry_out()
         if len({kind.batch for kind in known}) == len(parts):
             places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(known, parts, strict=True)}

@@ -106,7 +106,7 @@ def continues_moved(command: Draw) -> bool:
 
 def continue_moved(draws: Sequence[Draw]) -> bool:
     """Return whether draws are small, and each but the first continues a run, as for `continues_moved`."""
-    if not isinstance(draws, AlikeDraws):
+    if type(draws) is not AlikeDraws:
         return max(vertex_counts(draws)) < least_compared(draws[0]) and all(map(continues_moved, draws[1:]))
     like, vertices = draws.like, draws.vertices
     if max(vertices.counts) >= least_compared(like) or any(kind & UNKNOWN for kind in set(draws.kinds)):

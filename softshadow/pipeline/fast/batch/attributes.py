@@ -5,13 +5,13 @@ An attribute is an array, or constant in each draw: that is the same for all dra
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import chain
 
 import numpy as np
 
 from softshadow.jit import read_only
-from softshadow.pipeline.alike_draws import AlikeDraws, Rows, parts_of, vertices_of
+from softshadow.pipeline.alike_draws import AlikeDraws, parts_of, vertices_of
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.memory.scratch import scratch
@@ -38,30 +38,32 @@ class Attributes:
 
     def positions(self) -> np.ndarray:
         """Return the positions (V, 4)."""
-        return _joined(chain.from_iterable([each.positions for each in self._parts]), NO_ROWS)
+        return _joined([each.positions for each in self._parts], NO_ROWS)
 
     def colors(self, is_array: bool) -> np.ndarray:
         """Return the colours (V, 4); no rows if they are constants."""
-        return _joined([rows for each in self._parts for rows, _ in each.colors], NO_ROWS) if is_array else NO_ROWS
+        return _joined([each.colors for each in self._parts], NO_ROWS) if is_array else NO_ROWS
 
     def normals(self, is_array: bool) -> np.ndarray:
         """Return the normals (V, 3); no rows if they are constants, or nobody reads them."""
-        return _joined([rows for each in self._parts for rows, _ in each.normals], NO_ROWS) if is_array else NO_ROWS
+        return _joined([each.normals for each in self._parts], NO_ROWS) if is_array else NO_ROWS
 
-    def constant_colors(self) -> np.ndarray:
-        """Return the constant colours (D, 4), or one row if all draws have the same."""
-        return _constants([rows for each in self._parts for rows in each.colors])
-
-    def constant_normals(self) -> np.ndarray:
-        """Return the constant normals (D, 3), or one row if all draws have the same."""
-        return _constants([rows for each in self._parts for rows in each.normals])
+    def constant(self, name: str) -> np.ndarray:
+        """Return the "color" or "normal" of each draw, where it is constant: (D, k), or (1, k) if all are the same."""
+        rows = [each.constant(name) for each in self._parts]
+        if len(rows) == 1:
+            return rows[0]
+        counts = [len(part) for part in parts_of(self._draws)]
+        return np.concatenate(
+            [np.broadcast_to(own, (count, own.shape[1])) for own, count in zip(rows, counts, strict=True)]
+        )
 
     def texcoords(self, run: Run) -> np.ndarray:
         """Return the coordinates (U, V, 4) of the units of a run; those of a unit without an array are not set."""
         if not run.units:
             return NO_TEXCOORDS
         arrays = {
-            n: [rows for each in self._parts for rows in each.texcoords(unit.index)]
+            n: [each.texcoords(unit.index) for each in self._parts]
             for n, unit in enumerate(run.units)
             if run.arrays.texcoords[n]
         }
@@ -69,7 +71,7 @@ class Attributes:
             return _joined(arrays[0], NO_ROWS)[np.newaxis]
         texcoords = np.empty((len(run.units), sum([sum(each.counts) for each in self._parts]), 4), REAL)
         for n, rows in arrays.items():
-            np.concatenate(rows, out=texcoords[n])
+            np.concatenate(list(chain.from_iterable(rows)), out=texcoords[n])
         return read_only(texcoords)
 
     def constant_texcoords(self, unit: int) -> np.ndarray:
@@ -94,21 +96,7 @@ def indices_of(draws: Sequence[Draw]) -> np.ndarray:
             indices += part.indices or ()
         else:
             indices += [draw.indices for draw in part if draw.indices is not None]
-    return _joined(indices, NO_INDICES)
-
-
-def _constants(parts: Sequence[Rows]) -> np.ndarray:
-    """Return a row for each draw, or one row if all draws have the same."""
-    (first, count), *others = parts
-    if not others:
-        return first[:count]
-    if count == 1 and all(rows is first for rows, _ in others):
-        return first[:1]
-    return np.concatenate([rows[:1] if count == 1 else _row_of_each(rows, count) for rows, count in parts])
-
-
-def _row_of_each(rows: np.ndarray, count: int) -> np.ndarray:
-    return np.broadcast_to(rows, (count, rows.shape[1]))
+    return _joined([indices], NO_INDICES)
 
 
 def _optional(given: Sequence[tuple[np.ndarray | None, int]], initial: np.ndarray) -> np.ndarray:
@@ -117,8 +105,9 @@ def _optional(given: Sequence[tuple[np.ndarray | None, int]], initial: np.ndarra
     return read_only(np.concatenate(rows, dtype=REAL))
 
 
-def _joined(arrays: Iterable[np.ndarray], nothing: np.ndarray) -> np.ndarray:
-    parts = list(arrays)
+def _joined(lists: Sequence[list[np.ndarray]], nothing: np.ndarray) -> np.ndarray:
+    """Return all arrays of several lists as one; `nothing` if there are none."""
+    parts = lists[0] if len(lists) == 1 else list(chain.from_iterable(lists))
     if not parts:
         return nothing
     if len(parts) == 1:

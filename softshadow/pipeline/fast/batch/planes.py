@@ -13,6 +13,8 @@ from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.geometry.clip_planes import NO_PLANES, enabled_planes, in_clip_space
 from softshadow.programs.inverse import inverse
 
+PLANES_OF = attrgetter("state.clip_planes")
+
 
 class Planes(NamedTuple):
     """The clip planes of the draws of a run.
@@ -27,7 +29,7 @@ class Planes(NamedTuple):
 
 def planes_of(draws: Sequence[Draw]) -> Planes:
     """Return the clip planes of draws; those with the same planes and projection share rows."""
-    groups = of_each(draws, attrgetter("state.clip_planes"))
+    groups = of_each(draws, PLANES_OF)
     if not any(True in group.enabled for group in {id(group): group for group in groups}.values()):
         nothing = [0] * len(draws)
         return Planes(nothing, nothing, NO_PLANES)

@@ -53,6 +53,7 @@ SIDES = ("front", "back")
 LIGHT_MODEL = tuple(field.name for field in fields(Lighting) if field.name not in SIDES)
 MATERIAL = tuple(field.name for field in fields(MaterialState))
 MOST_KNOWN = 1024  # states of which the numbers are kept
+VIEWPORT_OF, PROJECTION_OF = attrgetter("state.viewport"), attrgetter("projection")
 
 
 class Table(NamedTuple):
@@ -101,7 +102,7 @@ class Views(NamedTuple):
 
 def views_of(draws: Sequence[Draw], target: Framebuffer) -> Views:
     """Return the viewport transforms of draws."""
-    viewports = of_each(draws, attrgetter("state.viewport"))
+    viewports = of_each(draws, VIEWPORT_OF)
     if len(set(map(id, viewports))) == 1:
         return Views([0] * len(draws), *_transform(viewports[0], target))
     distinct = {id(viewport): viewport for viewport in viewports}
@@ -130,11 +131,11 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
     arrays, layout, attributes = run.arrays, run.layout, Attributes(draws)
     rows = np.empty((len(draws), FLOATS), np.float32)
     rows[:, MODELVIEW:PROJECTION] = _modelviews(draws)
-    rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, attrgetter("projection")))
+    rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, PROJECTION_OF))
     if not arrays.color:
-        rows[:, COLOR:NORMAL] = attributes.constant_colors()
+        rows[:, COLOR:NORMAL] = attributes.constant("color")
     if not arrays.normal:
-        rows[:, NORMAL : NORMAL + 3] = attributes.constant_normals()
+        rows[:, NORMAL : NORMAL + 3] = attributes.constant("normal")
     numbers, lightings = _numbers(draws, run, views, planes)
     return Table(
         layout,
