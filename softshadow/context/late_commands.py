@@ -18,7 +18,7 @@ from softshadow.pipeline.alike_draws import AlikeDraws, Attribute, GivenVertices
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
-MANY = 12  # draws that are alike: fewer are made in less time than arrays of all are handled
+MANY = 24  # draws that are alike: to handle arrays of fewer takes longer than to make these draws
 
 
 class LateCommands(Collection[Draw]):

@@ -126,6 +126,8 @@ class DrawQueue:
         of parts, and how many of its next draws come there: a program that changes the mode or the state between small
         draws goes back and forth between a few kinds.
         """
+        if len(turns) == 1 == len(parts[0]):
+            return self.add(parts[0][0])
         kinds = [self._kinds.of(part[0]) if continue_moved(part) else None for part in parts]
         known = [kind for kind in kinds if kind is not None]
         if len(known) < len(parts):

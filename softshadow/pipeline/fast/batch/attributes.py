@@ -33,8 +33,8 @@ class Attributes:
     """
 
     def __init__(self, draws: Sequence[Draw]) -> None:
-        self._draws = draws
-        self._parts = list(map(vertices_of, parts_of(draws)))
+        self._draws, self._of_draws = draws, parts_of(draws)
+        self._parts = list(map(vertices_of, self._of_draws))
 
     def positions(self) -> np.ndarray:
         """Return the positions (V, 4)."""
@@ -50,25 +50,47 @@ class Attributes:
 
     def constant(self, name: str) -> np.ndarray:
         """Return the "color" or "normal" of each draw, where it is constant: (D, k), or (1, k) if all are the same."""
-        rows = [each.constant(name) for each in self._parts]
+        return self._of_each([each.constant(name) for each in self._parts])
+
+    def modelviews(self) -> np.ndarray:
+        """Return the modelview matrix of each draw as a row of 16 numbers; one row if all have the same."""
+        rows = []
+        for part in self._of_draws:
+            if type(part) is AlikeDraws:
+                rows.append(part.modelviews.reshape(-1, 16))
+            else:
+                rows.append(matrices_of([draw.modelview for draw in part]))
+        return self._of_each(rows)
+
+    def _of_each(self, rows: list[np.ndarray]) -> np.ndarray:
+        """Return a row for each draw; `rows` are those of each part, or one row for all of its draws."""
         if len(rows) == 1:
             return rows[0]
-        counts = [len(part) for part in parts_of(self._draws)]
-        return np.concatenate(
-            [np.broadcast_to(own, (count, own.shape[1])) for own, count in zip(rows, counts, strict=True)]
-        )
+        counts = map(len, self._of_draws)
+        of_parts = zip(rows, counts, strict=True)
+        return np.concatenate([np.broadcast_to(own, (count, own.shape[1])) for own, count in of_parts])
+
+    def indices(self) -> np.ndarray:
+        """Return the indices of all draws that have some."""
+        indices: list[np.ndarray] = []
+        for part in self._of_draws:
+            if type(part) is AlikeDraws:
+                indices += part.indices or ()
+            else:
+                indices += [draw.indices for draw in part if draw.indices is not None]
+        return _joined([indices], NO_INDICES)
 
     def texcoords(self, run: Run) -> np.ndarray:
         """Return the coordinates (U, V, 4) of the units of a run; those of a unit without an array are not set."""
         if not run.units:
             return NO_TEXCOORDS
+        if len(run.units) == 1 and run.arrays.texcoords[0]:
+            return _joined([each.texcoords(run.units[0].index) for each in self._parts], NO_ROWS)[np.newaxis]
         arrays = {
             n: [each.texcoords(unit.index) for each in self._parts]
             for n, unit in enumerate(run.units)
             if run.arrays.texcoords[n]
         }
-        if len(run.units) == len(arrays) == 1:
-            return _joined(arrays[0], NO_ROWS)[np.newaxis]
         texcoords = np.empty((len(run.units), sum([sum(each.counts) for each in self._parts]), 4), REAL)
         for n, rows in arrays.items():
             np.concatenate(list(chain.from_iterable(rows)), out=texcoords[n])
@@ -88,15 +110,11 @@ class Attributes:
         return _optional(given, NO_FOG_COORDINATE)
 
 
-def indices_of(draws: Sequence[Draw]) -> np.ndarray:
-    """Return the indices of all draws that have some."""
-    indices: list[np.ndarray] = []
-    for part in parts_of(draws):
-        if isinstance(part, AlikeDraws):
-            indices += part.indices or ()
-        else:
-            indices += [draw.indices for draw in part if draw.indices is not None]
-    return _joined([indices], NO_INDICES)
+def matrices_of(matrices: Sequence[np.ndarray]) -> np.ndarray:
+    """Return matrices as rows of 16 numbers; one row if all draws have the same."""
+    if len(set(map(id, matrices))) == 1:
+        return matrices[0].reshape(1, 16)
+    return np.concatenate(matrices).reshape(-1, 16)
 
 
 def _optional(given: Sequence[tuple[np.ndarray | None, int]], initial: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.jit import read_only
-from softshadow.pipeline.alike_draws import vertex_counts
+from softshadow.pipeline.alike_draws import of_each, vertex_counts
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.admission import least_compared
 from softshadow.pipeline.fast.batch.assembly import (
@@ -288,7 +288,7 @@ def _may_be_repeated(draws: Sequence[Draw]) -> bool:
     """Return whether a run is large enough to be compared with recent ones: of large draws of triangles."""
     if width_of(draws[0].mode) != WIDTH_OF_POLYGONS or len(draws) > MOST_COMPARED:
         return False
-    return sum(vertex_counts(draws)) >= sum(map(least_compared, draws))
+    return sum(vertex_counts(draws)) >= sum(of_each(draws, least_compared))
 
 
 def _key_of(

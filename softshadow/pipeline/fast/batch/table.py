@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
+from itertools import islice
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from softshadow.kernel_cache import KernelGroup
 from softshadow.pipeline.alike_draws import AlikeDraws, of_each, parts_of
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch import lighting
-from softshadow.pipeline.fast.batch.attributes import NO_COORDINATES, NO_INDICES, NO_ROWS, REAL, Attributes, indices_of
+from softshadow.pipeline.fast.batch.attributes import NO_COORDINATES, NO_INDICES, NO_ROWS, REAL, Attributes, matrices_of
 from softshadow.pipeline.fast.batch.planes import Planes
 from softshadow.pipeline.fast.batch.run import Run
 from softshadow.pipeline.fast.batch.vertices import (
@@ -130,8 +131,8 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
     """Return the draws of a run as arrays; without their indices if nobody reads them."""
     arrays, layout, attributes = run.arrays, run.layout, Attributes(draws)
     rows = np.empty((len(draws), FLOATS), np.float32)
-    rows[:, MODELVIEW:PROJECTION] = _modelviews(draws)
-    rows[:, PROJECTION:COLOR] = _matrices(of_each(draws, PROJECTION_OF))
+    rows[:, MODELVIEW:PROJECTION] = attributes.modelviews()
+    rows[:, PROJECTION:COLOR] = matrices_of(of_each(draws, PROJECTION_OF))
     if not arrays.color:
         rows[:, COLOR:NORMAL] = attributes.constant("color")
     if not arrays.normal:
@@ -153,31 +154,10 @@ def table_of(run: Run, draws: Sequence[Draw], views: Views, planes: Planes, *, r
         attributes.secondaries() if run.reads_secondaries else NO_ROWS,
         attributes.fog_coordinates() if layout.fog == BY_COORDINATE else NO_COORDINATES,
         attributes.texcoords(run),
-        indices_of(draws) if reads_indices else NO_INDICES,
+        attributes.indices() if reads_indices else NO_INDICES,
         views.scales,
         views.shifts,
     )
-
-
-def _modelviews(draws: Sequence[Draw]) -> np.ndarray:
-    """Return the modelview matrix of each draw as a row of 16 numbers; one row if all have the same."""
-    rows = [
-        part.modelviews.reshape(-1, 16)
-        if isinstance(part, AlikeDraws)
-        else _matrices([draw.modelview for draw in part])
-        for part in parts_of(draws)
-    ]
-    if len(rows) == 1:
-        return rows[0]
-    counts = map(len, parts_of(draws))
-    return np.concatenate([np.broadcast_to(own, (count, 16)) for own, count in zip(rows, counts, strict=True)])
-
-
-def _matrices(matrices: Sequence[np.ndarray]) -> np.ndarray:
-    """Return matrices as rows of 16 numbers; one row if all draws have the same."""
-    if len(set(map(id, matrices))) == 1:
-        return matrices[0].reshape(1, 16)
-    return np.concatenate(matrices).reshape(-1, 16)
 
 
 NO_PLANE_ROWS = read_only(NO_PLANES)
@@ -203,21 +183,20 @@ def _reflectances(draws: Sequence[Draw], names: frozenset[str], two_side: int) -
 
 def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> tuple[np.ndarray, list[Lighting]]:
     """Return the numbers of each draw, and the states of lighting that kernels can tell apart."""
-    lightings = _Lightings(draws[0].state.lighting, run.reads_normals)
+    lightings, tells_apart = [draws[0].state.lighting], run.reads_normals
     across = IN_STAGES if run.unfilled else int(run.across)
     across_by_mode = {GL_QUADS: 1} if first_provokes(run.state) else {}
     tables: list[np.ndarray] = []
-    place = start = index_start = 0
+    rest = zip(views.of_draws, planes.firsts, planes.ends, strict=True)
+    start = index_start = 0
     for part in parts_of(draws):
-        first, place = place, place + len(part)
-        if isinstance(part, AlikeDraws):
+        if type(part) is AlikeDraws:
             mode, indexed, counts = part.like.mode, part.indices is not None, part.vertices.counts
+            row = _row_of(part.like.state.lighting, lightings, tells_apart)
+            (view, first_plane, end_plane), *_ = islice(rest, len(part))
+            cut = across or indexed or across_by_mode.get(mode, 0)
             table = np.empty((len(part), NUMBERS), np.int64)
-            table[:] = (
-                0, 0, mode, index_start, index_start, indexed, 0, lightings.row_of(part.like.state.lighting),
-                across or indexed or across_by_mode.get(mode, 0),
-                views.of_draws[first], planes.firsts[first], planes.ends[first],
-            )  # fmt: skip
+            table[:] = 0, 0, mode, index_start, index_start, indexed, 0, row, cut, view, first_plane, end_plane
             table[:, KIND] = part.kinds
             table[:, END] = np.cumsum(counts) + start
             table[:, START] = table[:, END] - counts
@@ -228,34 +207,27 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> t
             tables.append(table)
             continue
         numbers: list[int] = []  # in the order of the columns
-        latest, row = None, 0
-        own = views.of_draws[first:place], planes.firsts[first:place], planes.ends[first:place]
-        for draw, view, first_plane, end_plane in zip(part, *own, strict=True):
+        latest, row = lightings[0], 0
+        for draw, (view, first_plane, end_plane) in zip(part, rest, strict=False):
             indices, lights = draw.indices, draw.state.lighting
             end, indexed = start + len(draw.vertices.position), indices is not None
             index_end = index_start if indices is None else index_start + len(indices)
             if lights is not latest:
-                latest, row = lights, lightings.row_of(lights)
+                latest, row = lights, _row_of(lights, lightings, tells_apart)
             kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
             mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
             numbers += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view, first_plane, end_plane)
             start, index_start = end, index_end
         tables.append(np.array(numbers, np.int64).reshape(-1, NUMBERS))
-    return tables[0] if len(tables) == 1 else np.concatenate(tables), lightings.distinct
+    return tables[0] if len(tables) == 1 else np.concatenate(tables), lightings
 
 
-class _Lightings:
-    """The states of lighting of a table: its rows."""
-
-    def __init__(self, first: Lighting, tells_apart: bool) -> None:
-        self.distinct, self._tells_apart = [first], tells_apart
-
-    def row_of(self, lights: Lighting) -> int:
-        """Return the row of a state of lighting, if it does not equal the last one a new one."""
-        last = self.distinct[-1]
-        if self._tells_apart and lights is not last and not _same_rows(lights, last):
-            self.distinct.append(lights)
-        return len(self.distinct) - 1
+def _row_of(lights: Lighting, lightings: list[Lighting], tells_apart: bool) -> int:
+    """Return the row of a state of lighting, if it does not equal the last one a new one."""
+    last = lightings[-1]
+    if tells_apart and lights is not last and not _same_rows(lights, last):
+        lightings.append(lights)
+    return len(lightings) - 1
 
 
 def _same_rows(a: Lighting, b: Lighting) -> bool:
@@ -308,7 +280,7 @@ def _unit_rows(run: Run, draws: Sequence[Draw], attributes: Attributes) -> np.nd
         if is_replaced(run.state, unit.index):
             rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY], rows[:, n, UNIT_IS_IDENTITY] = NO_COORDINATE, 1
             continue
-        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = _matrices([each[unit.index] for each in matrices])
+        rows[:, n, UNIT_MATRIX:UNIT_CONSTANT] = matrices_of([each[unit.index] for each in matrices])
         rows[:, n, UNIT_IS_IDENTITY] = run.arrays.identities[n]
         if not run.arrays.texcoords[n]:
             rows[:, n, UNIT_CONSTANT:UNIT_IS_IDENTITY] = attributes.constant_texcoords(unit.index)
