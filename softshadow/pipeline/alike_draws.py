@@ -39,9 +39,10 @@ class Attribute(NamedTuple):
             return split(self.rows, ends)
         rows = self.rows
         if len(rows) > 1:
-            return [_repeated(rows, number, count) for number, count in enumerate(counts)]
-        views = {count: _repeated(rows, 0, count) for count in set(counts)}
-        return [views[count] for count in counts]
+            return map(_repeated, rows, counts)
+        if len(set(counts)) == 1:
+            return repeat(_repeated(rows[0], counts[0]), len(counts))
+        return [_repeated(rows[0], count) for count in counts]
 
     def of(self, draws: slice, vertices: slice) -> Attribute:
         """Return that of some draws, which have these vertices."""
@@ -55,10 +56,9 @@ def split(rows: np.ndarray, ends: Sequence[int]) -> list[np.ndarray]:
     return [rows] if len(ends) == 2 else [rows[start:end] for start, end in pairwise(ends)]
 
 
-def _repeated(rows: np.ndarray, number: int, count: int) -> np.ndarray:
+def _repeated(row: np.ndarray, count: int) -> np.ndarray:
     """Return a read-only view of `count` times the same row."""
-    width, size = rows.shape[1], rows.itemsize
-    return np.ndarray((count, width), rows.dtype, rows, number * width * size, (0, size))
+    return np.ndarray((count, len(row)), row.dtype, row, 0, (0, row.itemsize))
 
 
 class JoinedVertices(NamedTuple):
