@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from pipeline.fast.random_draws import SIZE, Program, same_buffers
 from softshadow import gl
-from softshadow.context import Context
+from softshadow.context import Context, late_commands
 from softshadow.framebuffer import Framebuffer, Storage
 from softshadow.pipeline import execute_waiting, plan, queue, set_threads, threads, use_short_cuts
 from softshadow.pipeline.commands import Draw
@@ -24,6 +24,7 @@ from softshadow.pipeline.memory import threads as pool
 from softshadow.programs import inverse
 
 seeds = st.integers(0, 2**32 - 1)
+OF_OBJECTS = gl.GL_DEPTH_TEST, gl.GL_BLEND, gl.GL_LIGHTING, gl.GL_CULL_FACE, gl.GL_TEXTURE_2D, gl.GL_COLOR_MATERIAL
 
 
 @given(seeds)
@@ -38,6 +39,55 @@ def test_segments_of_a_batch_leave_the_bits_of_single_draws(seed):
     with use_short_cuts(False):
         expected = Program(seed).draw(2, 16, changes_tests=True)
     assert same_buffers(Program(seed).draw(2, 16, changes_tests=True), expected)
+
+
+def draw_objects(seed: int) -> Context:
+    """Draw shapes of a few modes in turn, most of them under a matrix of their own; few calls change the state."""
+    random = np.random.default_rng(seed)
+    modes = random.choice(10, random.choice((1, 2, 3)), replace=False).tolist()
+    states = [
+        *((call, state) for state in OF_OBJECTS for call in (gl.glEnable, gl.glDisable)), (gl.glLoadIdentity,),
+        *((gl.glPolygonMode, gl.GL_FRONT_AND_BACK, mode) for mode in (gl.GL_LINE, gl.GL_FILL)), (gl.glLineWidth, 2),
+        (gl.glRectf, -0.5, -0.25, 0.5, 0.5), (gl.glNormal3f, 0, 0, -1), (gl.glTexCoord2f, 0.5, 0.25),
+    ]  # fmt: skip
+    listed, is_colored = random.random() < 0.3, random.random() < 0.5
+    with gl.create_context(32, 32) as context:
+        gl.glTexParameteri(gl.GL_TEXTURE_2D, gl.GL_TEXTURE_MIN_FILTER, gl.GL_NEAREST)
+        gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGB, 2, 2, 0, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, np.arange(16) * 16)
+        gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE)
+        if listed:
+            gl.glNewList(1, gl.GL_COMPILE)
+            gl.glBegin(modes[0])
+            for corner in random.uniform(-1, 1, (6, 3)):
+                gl.glVertex3f(*corner)
+            gl.glEnd()
+            gl.glEndList()
+        for number in range(40):
+            if random.random() < 0.06:
+                call, *arguments = states[random.integers(len(states))]
+                call(*arguments)
+            if random.random() < 0.7:
+                gl.glTranslatef(*random.uniform(-0.2, 0.2, 3))
+            if is_colored:
+                gl.glColor3f(*random.random(3))
+            if listed:
+                gl.glCallList(1)
+                continue
+            gl.glBegin(modes[number % len(modes)])
+            for corner in random.uniform(-1.2, 1.2, (random.choice((4, 4, 4, 6, 9)), 3)):
+                gl.glVertex3f(*corner)
+            gl.glEnd()
+        gl.glFinish()
+    return context
+
+
+@given(seeds)
+def test_objects_under_matrices_leave_the_bits_of_single_draws(seed):
+    with use_short_cuts(False):
+        expected = draw_objects(seed)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(late_commands, "MANY", 2)  # else few draws are alike
+        assert same_buffers(draw_objects(seed), expected)
 
 
 class CountedProgram(Program):
