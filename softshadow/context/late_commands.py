@@ -14,7 +14,8 @@ import numpy as np
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.late_forms import LateDraw, MovedDraw, matrices_of
 from softshadow.context.precision import Precision
-from softshadow.pipeline.alike_draws import AlikeDraws, Attribute, GivenVertices, JoinedVertices, each_of
+from softshadow.pipeline.alike_draws import AlikeDraws, each_of
+from softshadow.pipeline.alike_vertices import Attribute, GivenVertices, JoinedVertices
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softshadow.context.primitive import Primitive
-from softshadow.pipeline.alike_draws import ConstantTexcoords
+from softshadow.pipeline.alike_vertices import ConstantTexcoords
 from softshadow.pipeline.commands import Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 

@@ -10,7 +10,8 @@ import numpy as np
 from softshadow import matrices
 from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
-from softshadow.pipeline.alike_draws import AlikeDraws, GivenVertices, vertex_counts
+from softshadow.pipeline.alike_draws import AlikeDraws, vertex_counts
+from softshadow.pipeline.alike_vertices import GivenVertices
 from softshadow.pipeline.commands import Draw
 from softshadow.pipeline.fast.batch.assembly import MODES, WIDTH_OF_POLYGONS, width_of
 from softshadow.pipeline.fast.batch.vertices import GENERATED
