@@ -45,7 +45,7 @@ except ModuleNotFoundError:  # the folder can be deleted: then no draw waits
     pass
 
 MOST_BYTES = 1 << 24  # of texels that wait
-MANY = 12  # draws that are not looked at one by one
+FEW = 12  # fewer draws are looked at one by one
 
 
 class DrawQueue:
@@ -135,7 +135,7 @@ class DrawQueue:
         n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
         is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
         belongs = self._are_small or all(kind is self._kind for kind in known)
-        if not belongs and n_draws < MANY:
+        if not belongs and n_draws < FEW:
             return False  # the first ones may belong to the large draws that wait
         if is_full or not belongs:
             self.carry_out()

@@ -57,10 +57,11 @@ def draw_objects(seed: int) -> Context:
         gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE)
         if listed:
             gl.glNewList(1, gl.GL_COMPILE)
-            gl.glBegin(modes[0])
-            for corner in random.uniform(-1, 1, (6, 3)):
-                gl.glVertex3f(*corner)
-            gl.glEnd()
+            for _ in range(random.choice((1, 3))):
+                gl.glBegin(modes[0])
+                for corner in random.uniform(-1.2, 1.2, (6, 3)):
+                    gl.glVertex3f(*corner)
+                gl.glEnd()
             gl.glEndList()
         for number in range(40):
             if random.random() < 0.06:
@@ -88,6 +89,35 @@ def test_objects_under_matrices_leave_the_bits_of_single_draws(seed):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(late_commands, "MANY", 2)  # else few draws are alike
         assert same_buffers(draw_objects(seed), expected)
+
+
+@pytest.mark.parametrize("n_strips", [1, 2, 8])
+@pytest.mark.parametrize("is_lit", [False, True])
+def test_lists_of_quad_strips_under_matrices_leave_the_bits_of_single_draws(n_strips, is_lit):
+    def draw() -> Context:
+        random = np.random.default_rng(n_strips)
+        with gl.create_context(32, 32) as context:
+            for switch in (gl.GL_BLEND, gl.GL_LIGHT0, gl.GL_COLOR_MATERIAL, *[gl.GL_LIGHTING] * is_lit):
+                gl.glEnable(switch)
+            gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+            gl.glNewList(1, gl.GL_COMPILE)
+            for _ in range(n_strips):
+                gl.glBegin(gl.GL_QUAD_STRIP)
+                for corner in random.uniform(-1.5, 1.5, (6, 3)):  # clipped, which changes how quads are cut
+                    gl.glNormal3f(*random.uniform(-1, 1, 3))
+                    gl.glVertex3f(*corner)
+                gl.glEnd()
+            gl.glEndList()
+            for _ in range(2 * late_commands.MANY):
+                gl.glTranslatef(*random.uniform(-0.2, 0.2, 3))
+                gl.glColor4f(*random.random(4))
+                gl.glCallList(1)
+            gl.glFinish()
+        return context
+
+    with use_short_cuts(False):
+        expected = draw()
+    assert same_buffers(draw(), expected)
 
 
 class CountedProgram(Program):

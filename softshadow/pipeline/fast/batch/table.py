@@ -191,10 +191,10 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> t
     start = index_start = 0
     for part in parts_of(draws):
         if type(part) is AlikeDraws:
-            mode, indexed, counts = part.like.mode, part.indices is not None, part.vertices.counts
-            row = _row_of(part.like.state.lighting, lightings, tells_apart)
+            like, indexed, counts = part.like, part.indices is not None, part.vertices.counts
+            row = _row_of(like.state.lighting, lightings, tells_apart)
             (view, first_plane, end_plane), *_ = islice(rest, len(part))
-            cut = across or indexed or across_by_mode.get(mode, 0)
+            mode, cut = _mode_of(like), across or indexed or across_by_mode.get(like.mode, 0)
             table = np.empty((len(part), NUMBERS), np.int64)
             table[:] = 0, 0, mode, index_start, index_start, indexed, 0, row, cut, view, first_plane, end_plane
             table[:, KIND] = part.kinds
@@ -215,11 +215,16 @@ def _numbers(draws: Sequence[Draw], run: Run, views: Views, planes: Planes) -> t
             if lights is not latest:
                 latest, row = lights, _row_of(lights, lightings, tells_apart)
             kind, cut = draw.modelview_kind, across or indexed or across_by_mode.get(draw.mode, 0)
-            mode = JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
+            mode = _mode_of(draw)
             numbers += (start, end, mode, index_start, index_end, indexed, kind, row, cut, view, first_plane, end_plane)
             start, index_start = end, index_end
         tables.append(np.array(numbers, np.int64).reshape(-1, NUMBERS))
     return tables[0] if len(tables) == 1 else np.concatenate(tables), lightings
+
+
+def _mode_of(draw: Draw) -> int:
+    """Return the mode of a draw in a table."""
+    return JOINED_STRIPS if draw.pairs_mode == GL_QUAD_STRIP else draw.mode
 
 
 def _row_of(lights: Lighting, lightings: list[Lighting], tells_apart: bool) -> int:
