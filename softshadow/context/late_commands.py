@@ -82,6 +82,9 @@ class LateCommands(Collection[Draw]):
             else:
                 pairs.setdefault((first.form.columns, id(first.form.texcoords)), []).append(number)
         for group in pairs.values():
+            if len(group) == len(alike[group[0]]) == 1:
+                made[group[0]] = [self._pair(cast(LateDraw, alike[group[0]][0]), precision)]
+                continue
             group.sort(key=lambda number: len(alike[number]) >= MANY)
             own = self._pairs([cast(list[LateDraw], alike[number]) for number in group], precision)
             made.update(zip(group, own, strict=True))
@@ -97,6 +100,16 @@ class LateCommands(Collection[Draw]):
         if len(draws) < MANY or 0 < len(own) < len(draws):
             return moved_draws(like, zip(vertices, indices, each_of(matrices, len(draws)), kinds, strict=True))
         return AlikeDraws(like, GivenVertices(vertices), matrices, kinds, own or None)
+
+    def _pair(self, draw: LateDraw, precision: Precision) -> Draw:
+        """Return the only draw whose vertices have its attributes."""
+        joined = _joined((draw,), precision)
+        self._joined.append(joined)
+        (vertices,) = joined.split()
+        made = draw.made(vertices)
+        if made.indices is not None:
+            self.indices.append(made.indices)
+        return made
 
     def _pairs(self, parts: Sequence[Sequence[LateDraw]], precision: Precision) -> Iterator[Sequence[Draw]]:
         """Yield parts of draws of pairs: their vertices have the same attributes; those of few draws come first."""

@@ -95,7 +95,7 @@ class DrawList(Sequence[Draw]):
     def add(self, draws: Sequence[Draw]) -> None:
         """Append draws."""
         self._n_draws += len(draws)
-        if isinstance(draws, AlikeDraws):
+        if type(draws) is AlikeDraws:
             self.parts.append(draws)
         elif self.parts and type(self.parts[-1]) is list:
             self.parts[-1] += draws
@@ -123,12 +123,12 @@ class DrawList(Sequence[Draw]):
 
 def parts_of(draws: Sequence[Draw]) -> Sequence[Sequence[Draw]]:
     """Return the parts of a sequence of draws, each a list or `AlikeDraws`."""
-    return draws.parts if isinstance(draws, DrawList) else (draws,)
+    return draws.parts if type(draws) is DrawList else (draws,)
 
 
 def vertices_of(part: Sequence[Draw]) -> JoinedVertices | GivenVertices:
     """Return the vertices of such a part."""
-    return part.vertices if isinstance(part, AlikeDraws) else GivenVertices([draw.vertices for draw in part])
+    return part.vertices if type(part) is AlikeDraws else GivenVertices([draw.vertices for draw in part])
 
 
 def of_each(draws: Sequence[Draw], value: Callable[[Draw], Any]) -> list[Any]:
@@ -137,7 +137,7 @@ def of_each(draws: Sequence[Draw], value: Callable[[Draw], Any]) -> list[Any]:
         return list(map(value, draws))
     values: list[Any] = []
     for part in parts_of(draws):
-        values += repeat(value(part.like), len(part)) if isinstance(part, AlikeDraws) else map(value, part)
+        values += repeat(value(part.like), len(part)) if type(part) is AlikeDraws else map(value, part)
     return values
 
 
@@ -145,7 +145,7 @@ def vertex_counts(draws: Sequence[Draw]) -> list[int]:
     """Return the number of vertices of each draw."""
     counts: list[int] = []
     for part in parts_of(draws):
-        if isinstance(part, AlikeDraws):
+        if type(part) is AlikeDraws:
             counts += part.vertices.counts
         else:
             counts += [len(draw.vertices.position) for draw in part]

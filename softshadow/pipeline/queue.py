@@ -134,10 +134,9 @@ class DrawQueue:
             return False
         n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
         is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        belongs = self._are_small or all(kind is self._kind for kind in known)
-        if not belongs and n_draws < FEW:
-            return False  # the first ones may belong to the large draws that wait
-        if is_full or not belongs:
+        if not self._are_small and n_draws < FEW and known[turns[0][0]] is self._kind:
+            return False  # the first ones belong to the large draws that wait
+        if is_full or not (self._are_small or all(kind is self._kind for kind in known)):
             self.carry_out()
         if len({kind.batch for kind in known}) == len(parts):
             places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(known, parts, strict=True)}

@@ -69,7 +69,7 @@ def primitive_counts(draws: Sequence[Draw]) -> list[int]:
     """Return what `primitives_of` returns of each draw."""
     counts: list[int] = []
     for part in parts_of(draws):
-        if isinstance(part, AlikeDraws):
+        if type(part) is AlikeDraws:
             counts += [primitive_count(part.like.mode, n) for n in part.counts]
         else:
             counts += map(primitives_of, part)
