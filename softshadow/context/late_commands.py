@@ -36,7 +36,8 @@ class LateCommands(Collection[Draw]):
     parts : list             each of draws that differ from each other in vertices, indices and modelview matrix only:
                              `AlikeDraws` or a list. The vertices of each part have arrays of the same attributes.
     turns : list             (number of a part, number of its next draws), in drawing order
-    vertices, indices : list    those that are not arrays of pairs
+    vertices : list          those of the draws that are no pairs
+    indices : list           those of all draws
     """
 
     def __init__(self, draws: Sequence[LateDraw | MovedDraw], keys: Sequence[int], precision: Precision) -> None:

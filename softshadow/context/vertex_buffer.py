@@ -123,16 +123,19 @@ class VertexBuffer:
     def _offset_mode_of(self, draw: Draw) -> int:
         return offset_mode_of(draw, self._stream.objects)
 
-    def can_join(self, mode: int) -> bool:
-        """Return whether vertices of a mode can be joined to the pairs that are not drawn yet."""
+    def pairs_to_join(self, mode: int) -> JoinedPairs | None:
+        """Return the pairs that a pair of a mode can be added to, after those before their last turn are drawn.
+
+        None, and nothing is drawn, if it cannot be joined to the pairs that are not drawn yet.
+        """
         joined = self.joined_pairs
         if joined is None:
-            return False
+            return None
         joined.unturn()
         if joined.like.mode != mode or not joined.takes_more:
-            return False
+            return None
         self._draw_all(joined.take_before_last_turn())
-        return True
+        return joined
 
     def begin_joined_pairs(self, first: Draw | LateDraw, n_vertices: int) -> None:
         """Draw the joined pairs, and begin new ones with a draw of so many vertices."""

@@ -47,9 +47,8 @@ def is_collected(context: Context, mode: int) -> bool:
 def collect_pair(context: Context, mode: int, primitive: Primitive) -> None:
     """Collect a pair, to draw it together with pairs that follow."""
     buffer, count = context.vertex_buffer, len(primitive.positions) // 4
-    if buffer.can_join(mode):
-        joined = buffer.joined_pairs
-        assert joined is not None
+    joined = buffer.pairs_to_join(mode)
+    if joined is not None:
         joined.add(_told(context), vertices_of(context, primitive), count)
     else:
         first = _late_draw(context, mode, primitive) if count <= FEW else None

@@ -59,8 +59,8 @@ def _repeated(row: np.ndarray, count: int) -> np.ndarray:
 class JoinedVertices(NamedTuple):
     """The vertices of several draws in arrays of all; they have the attributes that all `Vertices` have.
 
-    counts: how many each draw has; position (V, 4): of all, one draw after the other; texcoords: of the texture units
-    that are not in `units`, which has coordinates (V, 4) by unit.
+    counts: how many each draw has; position (V, 4): of all, one draw after the other; units: the texture coordinates
+    (V, 4) by unit; constants: those of the other units.
     """
 
     counts: Sequence[int]

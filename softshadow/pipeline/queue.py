@@ -128,33 +128,35 @@ class DrawQueue:
         """
         if len(turns) == 1 == len(parts[0]):
             return self.add(parts[0][0])
-        kinds = [self._kinds.of(part[0]) if continue_moved(part) else None for part in parts]
-        known = [kind for kind in kinds if kind is not None]
-        if len(known) < len(parts):
-            return False
+        kinds: list[Kind] = []
+        for part in parts:
+            kind = self._kinds.of(part[0])
+            if kind is None or not continue_moved(part):
+                return False
+            kinds.append(kind)
         n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
         is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
-        if not self._are_small and n_draws < FEW and known[turns[0][0]] is self._kind:
+        if not self._are_small and n_draws < FEW and kinds[turns[0][0]] is self._kind:
             return False  # the first ones belong to the large draws that wait
-        if is_full or not (self._are_small or all(kind is self._kind for kind in known)):
+        if is_full or not (self._are_small or all(kind is self._kind for kind in kinds)):
             self.carry_out()
-        if len({kind.batch for kind in known}) == len(parts):
-            places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(known, parts, strict=True)}
+        if len({kind.batch for kind in kinds}) == len(parts):
+            places = {kind.batch: self._add_to_batch(kind.batch, part) for kind, part in zip(kinds, parts, strict=True)}
         else:
-            places = {number: self._add_to_batch(number, own) for number, own in _by_batch(known, parts, turns).items()}
+            places = {number: self._add_to_batch(number, own) for number, own in _by_batch(kinds, parts, turns).items()}
         firsts, query = [part[0] for part in parts], self._storage.active_query
         for number, count in turns:
-            kind = known[number]
+            kind = kinds[number]
             place = places[kind.batch]
             places[kind.batch] = end = place + count
             self._add_segment(kind, firsts[number], place, end, query)
-        for kind, first in zip(known, firsts, strict=True):
+        for kind, first in zip(kinds, firsts, strict=True):
             self._note_uses(kind, first.state, query)
         self._n_commands += n_draws
         self._n_vertices += n_vertices
         last, _ = turns[-1]
-        self._kind, self._like = known[last], firsts[last]
-        if self._n_commands == MOST_DRAWS:
+        self._kind, self._like = kinds[last], firsts[last]
+        if self._n_commands >= MOST_DRAWS:
             self.carry_out()
         return True
 

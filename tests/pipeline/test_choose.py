@@ -45,14 +45,34 @@ import softshadow as ss
 
 with ss.use_short_cuts(False):
     run = ss.run("volume-zfail", "boxes", (64, 48))
-np.save(sys.argv[1], run.image)
+"""
+OBJECTS = """
+from softshadow import gl
+
+with gl.create_context(64, 48) as context:
+    for number in range(60):
+        gl.glTranslatef(0.01, 0.005 * (number % 3), 0)
+        gl.glColor3f(number / 60, 1, 0)
+        gl.glBegin((gl.GL_TRIANGLES, gl.GL_LINE_LOOP)[number // 3 % 2])
+        for corner in ((-0.5, -0.5), (0.25, -0.5), (-0.5, 0.25)):
+            gl.glVertex2f(*corner)
+        gl.glEnd()
+    gl.glFinish()
+    objects = context.storage.window.color.cells.copy()
+"""
+SAVE = """
+np.savez(sys.argv[1], image=run.image, objects=objects)
 """
 
 
 def test_the_textbook_works_without_the_folder_of_short_cuts(tmp_path):
-    file = tmp_path / "image.npy"
-    subprocess.run([sys.executable, "-c", WITHOUT_THE_FOLDER, str(file)], check=True)
-    assert np.array_equal(np.load(file), ss.run("volume-zfail", "boxes", SIZE).image)
+    file, ours = tmp_path / "images.npz", {}
+    subprocess.run([sys.executable, "-c", WITHOUT_THE_FOLDER + OBJECTS + SAVE, str(file)], check=True)
+    exec(OBJECTS, ours)
+    with np.load(file) as images:
+        assert np.array_equal(images["image"], ss.run("volume-zfail", "boxes", SIZE).image)
+        assert np.array_equal(images["objects"], ours["objects"])
+        assert np.unique(images["objects"]).size > 2
 
 
 @pytest.mark.parametrize("policy", ["never", 1, None])
