@@ -3,8 +3,8 @@
 The point comes from a texture of visible points, and the edge from a texture of edges; both are relative to the light's
 centre. The edge is projected onto the light as the point sees it, clipped to the light's outline, and what lies beyond
 it in the sector of its ends is the result, as a share of the light: positive where the edge hides this part from a
-point outside the hard shadow, negative where a point inside sees it. `scene.light_coverage` is the same in float64, and
-says why the sum over all edges is the covered part of the light.
+point outside the hard shadow, negative where a point inside sees it. A segment has a length in place of an area.
+`scene.light_coverage` is the same in float64, and says why the sum over all edges is the covered part of the light.
 
 One program per shape: "wedge-rectangle", "wedge-disc", "wedge-sphere" and "wedge-segment". "wedge-visibility" is the
 last pass: 1 less what is covered, from 0 to 1, and 0 outside the cone of a spot light.
@@ -27,6 +27,8 @@ from softshadow.programs.wedge_glsl import (
     FRAGMENT,
     ROUND_OUTLINE,
     SEGMENT_FRAME,
+    SHARE_OF_AREA,
+    SHARE_OF_SEGMENT,
     SPHERE_FRAME,
     SQUARE_OUTLINE,
     VISIBILITY_FRAGMENT,
@@ -37,7 +39,6 @@ ZERO, HALF, ONE, TWO, FOUR, SIX, EIGHT = (np.float32(c) for c in (0, 0.5, 1, 2, 
 QUARTER_TURN, HALF_TURN, PER_TURN = (np.float32(c) for c in (np.pi / 2, np.pi, 0.5 / np.pi))
 SMALLEST, STEEP = np.float32(1e-30), np.float32(0.6)
 EMPTY = TWO  # begin of a part that is empty
-PER_WIDTH = np.float32(1000)  # width of a segment, in its lengths, is 1 / 1000
 # arctangent from 0 to 1: coefficients of x^3, x^5, ..., error below 2e-8
 A3, A5, A7, A9, A11, A13, A15, A17 = (
     np.float32(c)
@@ -118,9 +119,9 @@ def set_view(kind, light, radius, point, view):
     normal[0], normal[1], normal[2] = x / height, y / height, z / height
     for axis in range(3):
         u[axis] = light[0, axis]
-    v[0] = PER_WIDTH * (normal[1] * u[2] - normal[2] * u[1])
-    v[1] = PER_WIDTH * (normal[2] * u[0] - normal[0] * u[2])
-    v[2] = PER_WIDTH * (normal[0] * u[1] - normal[1] * u[0])
+    v[0] = normal[1] * u[2] - normal[2] * u[1]
+    v[1] = normal[2] * u[0] - normal[0] * u[2]
+    v[2] = normal[0] * u[1] - normal[1] * u[0]
     view[3, 0] = height
 
 
@@ -132,15 +133,16 @@ def share_beyond(kind, view, point, start, end):
         return ZERO, False
     x0, x1 = along(normal, start), along(normal, end)
     w0, w1 = height - x0, height - x1
-    first, last = clip(x0, x1, ZERO, ONE)
-    point_u = along(u, point)
+    point_u, point_v = along(u, point), along(v, point)
     u0, u1 = along(u, start) * height - point_u * x0, along(u, end) * height - point_u * x1
+    v0, v1 = along(v, start) * height - point_v * x0, along(v, end) * height - point_v * x1
+    if kind == SEGMENT:
+        return share_of_segment(u0, v0, w0, x0, u1, v1, w1, x1)
+    first, last = clip(x0, x1, ZERO, ONE)
     first, last = clip(w0 - u0, w1 - u1, first, last)
     first, last = clip(w0 + u0, w1 + u1, first, last)
     if not first < last:
         return ZERO, False
-    point_v = along(v, point)
-    v0, v1 = along(v, start) * height - point_v * x0, along(v, end) * height - point_v * x1
     first, last = clip(w0 - v0, w1 - v1, first, last)
     first, last = clip(w0 + v0, w1 + v1, first, last)
     pw = w0 + first * (w1 - w0)
@@ -166,6 +168,16 @@ def clip(start, end, first, last):
     if end < ZERO:
         last = zero if zero < last else last
     return first, last
+
+
+@kernel
+def share_of_segment(u0, v0, w0, x0, u1, v1, w1, x1):
+    """Return the share of the segment v = 0, -1 < u < 1, beyond an edge, and whether the edge crosses it."""
+    near0, near1 = abs(v1), abs(v0)  # where the edge crosses v = 0 is the mean of its ends with these weights
+    u, w, height = abs(near0 * u0 + near1 * u1), near0 * w0 + near1 * w1, near0 * x0 + near1 * x1
+    if (v0 < ZERO) == (v1 < ZERO) or height < ZERO or not u < w:
+        return ZERO, False
+    return HALF - HALF * (u / w), True
 
 
 @kernel
@@ -230,7 +242,7 @@ def shade_visibility(inputs: np.ndarray, uniforms: Mapping[str, Any], out: np.nd
     out[:] = visible[:, None]
 
 
-def _program(shape: str, kind: int, frame: str, outline: str) -> Program:
+def _program(shape: str, kind: int, frame: str, outline: str, share: str = SHARE_OF_AREA) -> Program:
     origin = (0.0, 0.0, 0.0)
     return Program(
         f"wedge-{shape}",
@@ -242,14 +254,16 @@ def _program(shape: str, kind: int, frame: str, outline: str) -> Program:
         },
         samplers=("positions", "edges"),
         glsl_vertex=VERTEX,
-        glsl_fragment=FRAGMENT.replace("OUTLINE", outline.strip()).replace("FRAME", frame.strip()),
+        glsl_fragment=FRAGMENT.replace("OUTLINE", outline.strip())
+        .replace("FRAME", frame.strip())
+        .replace("SHARE", share.strip()),
     )  # fmt: skip
 
 
 WEDGE_RECTANGLE = _program("rectangle", RECTANGLE, FLAT_FRAME, SQUARE_OUTLINE)
 WEDGE_DISC = _program("disc", DISC, FLAT_FRAME, ROUND_OUTLINE)
 WEDGE_SPHERE = _program("sphere", SPHERE, SPHERE_FRAME, ROUND_OUTLINE)
-WEDGE_SEGMENT = _program("segment", SEGMENT, SEGMENT_FRAME, SQUARE_OUTLINE)
+WEDGE_SEGMENT = _program("segment", SEGMENT, SEGMENT_FRAME, "", SHARE_OF_SEGMENT)
 WEDGE_VISIBILITY = Program(
     "wedge-visibility",
     vertex,

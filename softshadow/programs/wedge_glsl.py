@@ -49,19 +49,7 @@ void main()
     float u0 = along(u, start) * height - pointU * x0, u1 = along(u, end) * height - pointU * x1;
     float v0 = along(v, start) * height - pointV * x0, v1 = along(v, end) * height - pointV * x1;
     float w0 = height - x0, w1 = height - x1;
-    float first = 0.0, last = 1.0;
-    clip(x0, x1, first, last);
-    clip(w0 - u0, w1 - u1, first, last);
-    clip(w0 + u0, w1 + u1, first, last);
-    clip(w0 - v0, w1 - v1, first, last);
-    clip(w0 + v0, w1 + v1, first, last);
-    float pw = w0 + first * (w1 - w0);
-    float qw = last < 1.0 ? w0 + last * (w1 - w0) : w1;
-    vec2 p = vec2(u0 + first * (u1 - u0), v0 + first * (v1 - v0)) / pw;
-    vec2 q = vec2(last < 1.0 ? u0 + last * (u1 - u0) : u1, last < 1.0 ? v0 + last * (v1 - v0) : v1) / qw;
-    bool meets = stored.a > 0.0 && height > 0.0 && first < last && pw > 0.0 && qw > 0.0;
-    float share = shareBeyond(p, q, meets);
-    share = meets && share > 0.0 ? share : 0.0;
+    SHARE
     bool inside = triple(start, end, point) < 0.0;
     gl_FragColor = vec4(
         inside ? 0.0 : share, inside ? share : 0.0, meets ? 1.0 : 0.0, inside ? -share : share);
@@ -95,7 +83,28 @@ SEGMENT_FRAME = """
     height = sqrt(along(n, n));
     n = n / height;
     u = axisU;
-    v = 1000.0 * vec3(n.y * u.z - n.z * u.y, n.z * u.x - n.x * u.z, n.x * u.y - n.y * u.x);"""
+    v = vec3(n.y * u.z - n.z * u.y, n.z * u.x - n.x * u.z, n.x * u.y - n.y * u.x);"""
+
+SHARE_OF_AREA = """
+    float first = 0.0, last = 1.0;
+    clip(x0, x1, first, last);
+    clip(w0 - u0, w1 - u1, first, last);
+    clip(w0 + u0, w1 + u1, first, last);
+    clip(w0 - v0, w1 - v1, first, last);
+    clip(w0 + v0, w1 + v1, first, last);
+    float pw = w0 + first * (w1 - w0);
+    float qw = last < 1.0 ? w0 + last * (w1 - w0) : w1;
+    vec2 p = vec2(u0 + first * (u1 - u0), v0 + first * (v1 - v0)) / pw;
+    vec2 q = vec2(last < 1.0 ? u0 + last * (u1 - u0) : u1, last < 1.0 ? v0 + last * (v1 - v0) : v1) / qw;
+    bool meets = stored.a > 0.0 && height > 0.0 && first < last && pw > 0.0 && qw > 0.0;
+    float share = shareBeyond(p, q, meets);
+    share = meets && share > 0.0 ? share : 0.0;"""
+
+SHARE_OF_SEGMENT = """
+    float near0 = abs(v1), near1 = abs(v0);  // where the edge crosses v = 0 is the mean of its ends with these weights
+    float pu = abs(near0 * u0 + near1 * u1), pw = near0 * w0 + near1 * w1, px = near0 * x0 + near1 * x1;
+    bool meets = stored.a > 0.0 && height > 0.0 && (v0 < 0.0) != (v1 < 0.0) && px >= 0.0 && pu < pw;
+    float share = meets ? 0.5 - 0.5 * (pu / pw) : 0.0;"""
 
 SQUARE_OUTLINE = """
 float squareAngle(vec2 p)  // length along the square's outline to the direction of a point

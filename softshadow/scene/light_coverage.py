@@ -12,8 +12,8 @@ contributes nothing. Whether c is on the caster's side has to be decided for H a
 `is_inside`.
 
 A rectangle or a disc is seen on its own plane. A sphere is seen on the plane through its centre perpendicular to the
-direction of the point, as a disc that the tangents bound. A segment is a rectangle of next to no width that faces the
-point.
+direction of the point, as a disc that the tangents bound. A segment has no area: an edge takes or gives back the length
+from where its image crosses the segment to the segment's end, and all lengths together are the length that is covered.
 
 References
 ----------
@@ -28,11 +28,11 @@ import numpy as np
 from softshadow.scene.light_shapes import Disc, LightShape, Rectangle, Segment, Sphere
 from softshadow.scene.lights import Light
 
-THIN = 1e-3  # width of a segment, in its lengths
-
 
 class LightView(NamedTuple):
     """A light as a point sees it: where u and v are from -1 to 1 the square that contains its outline.
+
+    A segment is where u is from -1 to 1 and v is 0.
 
     Attributes
     ----------
@@ -62,8 +62,11 @@ def edge_shares(edges: np.ndarray, light: Light, point: np.ndarray) -> np.ndarra
     view = None if light.shape is None else light_view(light.shape, place)
     if view is None:
         return np.zeros(len(relative))
-    is_round = not isinstance(light.shape, Rectangle | Segment)
-    beyond = areas_beyond(project(relative, view, place), is_round)
+    images = project(relative, view, place)
+    if isinstance(light.shape, Segment):
+        beyond = lengths_beyond(images)
+    else:
+        beyond = areas_beyond(images, not isinstance(light.shape, Rectangle))
     return np.where(is_inside(relative, place), -beyond, beyond)
 
 
@@ -94,7 +97,7 @@ def light_view(shape: LightShape, point: np.ndarray) -> LightView | None:
         if height == 0:
             return None
         normal = sideways / height
-        return LightView(u, np.cross(normal, u) / THIN, normal, height)
+        return LightView(u, np.cross(normal, u), normal, height)
     height = float(normal @ point)
     if height == 0:
         return None
@@ -120,6 +123,24 @@ def project(edges: np.ndarray, view: LightView, point: np.ndarray) -> np.ndarray
     heights = edges @ view.normal
     images = [(edges @ axis) * view.height - (point @ axis) * heights for axis in (view.u, view.v)]
     return np.stack([*images, view.height - heights, heights], axis=-1)
+
+
+def lengths_beyond(images: np.ndarray) -> np.ndarray:
+    """Return the length of a segment beyond each edge in its sector, (E,) from 0 to 1/2, in lengths of the segment.
+
+    Of two edges that meet on the segment, one crosses it there.
+
+    Parameters
+    ----------
+    images : (E, 2, 4)           as `project` returns them
+    """
+    v = images[..., 1]
+    with np.errstate(divide="ignore", invalid="ignore"):  # what does not cross is left out at the end
+        # where an edge crosses v = 0 is the mean of its ends with these weights
+        u, _, w, height = (np.abs(v[:, ::-1, None]) * images).sum(axis=1).T
+        length = (1 - np.abs(u / w)) / 2
+    crosses = ((v[:, 0] < 0) != (v[:, 1] < 0)) & (w > 0) & (height >= 0)
+    return np.where(crosses, np.maximum(length, 0), 0)
 
 
 def areas_beyond(images: np.ndarray, is_round: bool) -> np.ndarray:

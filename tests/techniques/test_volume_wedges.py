@@ -13,8 +13,8 @@ from softshadow.errors import EdgeNearLight
 from softshadow.inspection import soft_truth
 from softshadow.inspection.hard_truth import own_faces, seen_faces
 from softshadow.scene import Disc, Light, LightShape, Rectangle, Scene, SceneObject, Segment, Sphere, placement, shapes
-from softshadow.scene.light_coverage import THIN
-from softshadow.scene.penumbra_wedge import SilhouetteEdges
+from softshadow.scene.light_coverage import light_view, project
+from softshadow.scene.penumbra_wedge import SilhouetteEdges, silhouette_edges
 from softshadow.techniques.wedge_passes import WIDEST, edge_texture
 from softshadow.truth import light_visibility
 from techniques.drawn_frames import draw
@@ -31,8 +31,6 @@ SHAPES: list[LightShape] = [
     Sphere(0.6),
     Segment((0.8, 0.2, -0.4)),
 ]
-# a segment is drawn as a rectangle of next to no width, whose ends an edge may cut off obliquely
-SEGMENT_PRECISION = 2 * THIN
 each_shape = pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: type(shape).__name__)
 
 
@@ -58,10 +56,10 @@ def errors_on_the_floor(scene: Scene, size: tuple[int, int] = SIZE, **options: A
     return (run.visibility - truth.visibility)[floor]
 
 
-def errors_at_its_points(scene: Scene) -> np.ndarray:
+def errors_at_its_points(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     """Return what `errors_on_the_floor` returns, with the exact visibility of the points that the run has in float32.
 
-    So it does not matter how narrow a penumbra is.
+    So it does not matter how narrow a penumbra is. Then return these points.
     """
     run, (light,) = ss.run("volume-wedges", scene, size=SIZE), scene.lights
     objects, triangles, _ = seen_faces(scene, SIZE)
@@ -70,11 +68,29 @@ def errors_at_its_points(scene: Scene) -> np.ndarray:
     assert floor.sum() > 500
     exclude = own_faces(scene, objects[floor], triangles[floor])
     truth = light_visibility(points[floor], light, scene.casters, exclude=exclude, method="exact")
-    return run.visibility.ravel()[floor] - truth.visible
+    return run.visibility.ravel()[floor] - truth.visible, points[floor]
+
+
+def slants(scene: Scene, points: np.ndarray) -> np.ndarray:
+    """Return the smallest sine of the angles between a segment and the edges that cross it, seen from points; or 1.
+
+    An edge that has moved aside crosses the segment at another place, the farther off, the smaller the angle is.
+    """
+    (light,), smallest = scene.lights, []
+    assert isinstance(light.shape, Segment)
+    edges = silhouette_edges(scene.casters, light).ends - light.position[:3]
+    for point in points - light.position[:3]:
+        view = light_view(light.shape, point)
+        assert view is not None
+        (u0, v0, w0, _), (u1, v1, w1, _) = project(edges, view, point).transpose(1, 2, 0)
+        along, across = u1 / w1 - u0 / w0, v1 / w1 - v0 / w0
+        smallest.append(np.where(v0 * v1 < 0, np.abs(across) / np.hypot(along, across), 1).min())
+    return np.array(smallest)
 
 
 @each_shape
 @settings(max_examples=5)
+@example(seed=198)  # an edge is almost parallel to the segment
 @example(seed=671)  # in a narrow penumbra, the float32 point matters more than all else
 @given(seed=st.integers(0, 2**32 - 1))
 def test_one_flat_convex_caster_is_exact_to_float_precision(shape: LightShape, seed: int) -> None:
@@ -82,8 +98,11 @@ def test_one_flat_convex_caster_is_exact_to_float_precision(shape: LightShape, s
     turn = (float(rng.uniform(-40, 40)), *rng.normal(size=3))
     sheet = SceneObject(shapes.floor(float(rng.uniform(0.8, 2))), placement((0.2, 1.5, 0), turn), name="sheet")
     light = Light((rng.uniform(-0.8, 0.8), rng.uniform(3.5, 5), rng.uniform(-0.8, 0.8)), shape=shape)
-    errors = np.abs(errors_at_its_points(over_the_floor(light, sheet)))
-    assert errors.max() < (SEGMENT_PRECISION if isinstance(shape, Segment) else AT_ITS_POINTS)
+    scene = over_the_floor(light, sheet)
+    errors, points = errors_at_its_points(scene)
+    if isinstance(shape, Segment):
+        errors *= slants(scene, points)
+    assert np.abs(errors).max() < AT_ITS_POINTS
 
 
 def test_the_slab_is_exact_and_takes_all_kinds_of_pixels() -> None:
