@@ -24,7 +24,6 @@ PART = "part"  # kind of a stored library
 ONLY_FOR_PARTS = {"no_compile": False, "no_cpython_wrapper": False}
 FLAGS_HASH = hash(Flags())
 ROOM = 1 << 16  # values of a frame that takes little more than half of a block, the rest of which is for calls
-MANY_FUNCTIONS = 50  # in a kernel that is optimized twice: fills have 25 to 40, shading has 100
 PYTHON = ("_operator", "builtins")  # modules of operators, and of min, max, bool, range ...
 SLOWED_DOWN = {"skylake-avx512", "cascadelake", "cooperlake", "cannonlake"}  # LLVM's names of processors
 # of a function, cut where attributes may stand
@@ -115,8 +114,9 @@ def with_wide_vectors(module: Any) -> Any:
 class WholeLibrary(JITCodeLibrary):
     """Machine code, optimized once it contains all that the kernel calls.
 
-    Numba would run the optimizer on each function before, and on each part. This changes nothing, but that in a kernel
-    of many functions, loops that are optimized twice take 5 percent less time. So it runs twice there.
+    Numba would run the optimizer on each function before, and on each part, which changes nothing. And it would keep
+    all functions as they are, as if others could call them. Where LLVM knows that nobody does, it leaves out arguments
+    that are not used (of those of an array, most are not) and checks of results that are always the same.
 
     Attributes
     ----------
@@ -129,12 +129,13 @@ class WholeLibrary(JITCodeLibrary):
         module.data_layout = self._codegen._data_layout  # what remains of Numba's method
 
     def _optimize_final_module(self) -> None:
+        for each in self._final_module.functions:
+            if each.linkage == llvm.Linkage.linkonce_odr and not each.is_declaration:  # of a part
+                each.linkage = llvm.Linkage.internal
         if self.is_wide:
             self._final_module = with_wide_vectors(self._final_module)
-        n_functions = sum(not each.is_declaration for each in self._final_module.functions)
-        for _ in range(2 if n_functions >= MANY_FUNCTIONS else 1):
-            passes, builder = self._codegen._module_pass_manager()
-            passes.run(self._final_module, builder)
+        passes, builder = self._codegen._module_pass_manager()
+        passes.run(self._final_module, builder)
 
 
 class PartLibrary(WholeLibrary):

@@ -43,7 +43,7 @@ class StoredResult(NamedTuple):
     ----------
     result : tuple               Numba's reduced `CompileResult`, without the environments of its callees
     environments : of callees    module, constants and name of each
-    defined, external : names that the machine code defines, and that it needs from elsewhere
+    defined, external : names    that machine code defines, and that it needs from elsewhere; empty for a part
     """
 
     result: tuple[Any, ...]
@@ -69,13 +69,9 @@ class StoredResults(CompileResultCacheImpl):
     _locator_classes: Any = (KernelPlace, *CompileResultCacheImpl._locator_classes)
 
     def reduce(self, cres: Any) -> StoredResult:
-        """Return the parts of a result that are stored."""
-        module = cres.library._final_module
-        symbols = [*module.functions, *module.global_variables]
-        external = {each.name for each in symbols if each.is_declaration}
-        defined = {each.name for each in symbols if not each.is_declaration}
-        external = {name for name in external if not name.startswith("llvm.")}
-        *result, environments = super().reduce(cres)
+        """Return the parts of a result that are stored, without the text of types that nobody reads from there."""
+        defined, external = (set(), set()) if is_part(cres) else names_of(cres.library._final_module)
+        *result, environments = super().reduce(cres._replace(type_annotation=""))
         parts = tuple((each.globals["__name__"], list(each.consts), each.env_name) for each in environments)
         return StoredResult((*result, ()), parts, frozenset(defined), frozenset(external))
 
@@ -111,6 +107,13 @@ class StoredResults(CompileResultCacheImpl):
         for each in referenced:
             codegen.set_env(each.env_name, each)
         return _result_of(payload, target_context, library, entry_point, referenced)
+
+
+def names_of(module: Any) -> tuple[set[str], set[str]]:
+    """Return the names that a module defines, and those that it needs from elsewhere."""
+    symbols = [(each.name, each.is_declaration) for each in (*module.functions, *module.global_variables)]
+    defined = {name for name, is_declaration in symbols if not is_declaration}
+    return defined, {name for name, is_declaration in symbols if is_declaration and not name.startswith("llvm.")}
 
 
 def _result_of(payload: StoredResult, target_context: Any, library: Any, entry_point: Any, referenced: Any) -> Any:
