@@ -145,13 +145,10 @@ class LateCommands(Collection[Draw]):
 def _joined(draws: Sequence[LateDraw], precision: Precision) -> JoinedVertices:
     """Return the vertices of draws with the same attributes."""
     form, positions = draws[0].form, [draw.positions for draw in draws]
-    numbers = precision.numbers()
-    for each in positions:
-        numbers.extend(each)
     names = [name for name in form.columns if name.startswith("texcoord")]
     return JoinedVertices(
         [len(each) // 4 for each in positions],
-        precision.rows(numbers, 4),
+        precision.rows([*chain.from_iterable(positions)], 4),
         _attribute("color", [draw.color for draw in draws], draws, precision),
         _attribute("normal", [draw.normal for draw in draws], draws, precision),
         form.texcoords,
@@ -168,21 +165,19 @@ def _attribute(
         return Attribute(_rows(name, width, draws, precision), False)
     if len(set(map(id, values))) == 1:
         return Attribute(precision.constant(values[0], 1), True)
-    numbers = precision.numbers()
-    numbers.extend(chain.from_iterable(values))
-    return Attribute(precision.rows(numbers, width), True)
+    return Attribute(precision.rows([*chain.from_iterable(values)], width), True)
 
 
 def _rows(name: str, width: int, draws: Sequence[LateDraw], precision: Precision) -> np.ndarray:
     """Return an attribute of all vertices of draws, which is among the changes of their primitives."""
-    numbers = precision.numbers()
+    numbers: list[float] = []
     whole: dict[int, list[float]] = {}  # of primitives, by identity
     for draw in draws:
         primitive, end = draw.primitive, draw.end
         if end is None:
-            numbers.extend(primitive.components(name, ()))
+            numbers += primitive.components(name, ())
             continue
         if id(primitive) not in whole:
             whole[id(primitive)] = primitive.components(name, ())
-        numbers.extend(whole[id(primitive)][draw.start * width // 4 : end * width // 4])
+        numbers += whole[id(primitive)][draw.start * width // 4 : end * width // 4]
     return precision.rows(numbers, width)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from array import array
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -47,13 +46,9 @@ class Precision:
         dtype, width = self._dtype, len(row)
         return np.ndarray((count, width), dtype, _packer(width, dtype.char)(*row) * count)
 
-    def numbers(self) -> array[float]:
-        """Return numbers in the context's precision, none as yet, for `rows`."""
-        return array(self._dtype.char)
-
-    def rows(self, numbers: array[float], width: int) -> np.ndarray:
-        """Return numbers as a read-only array of rows of so many."""
-        return np.frombuffer(numbers.tobytes(), self._dtype).reshape(-1, width)
+    def rows(self, numbers: Sequence[float], width: int) -> np.ndarray:
+        """Return what `packed` returns, as rows of so many numbers."""
+        return self.packed(numbers, len(numbers) // width, width)
 
     def constant(self, row: Sequence[float], count: int) -> np.ndarray:
         """Return a read-only view of `count` equal rows."""
