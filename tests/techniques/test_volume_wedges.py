@@ -9,12 +9,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import softshadow as ss
+from segment_slants import slants
 from softshadow.errors import EdgeNearLight
 from softshadow.inspection import soft_truth
 from softshadow.inspection.hard_truth import own_faces, seen_faces
 from softshadow.scene import Disc, Light, LightShape, Rectangle, Scene, SceneObject, Segment, Sphere, placement, shapes
-from softshadow.scene.light_coverage import light_view, project
-from softshadow.scene.penumbra_wedge import SilhouetteEdges, silhouette_edges
+from softshadow.scene.penumbra_wedge import SilhouetteEdges
 from softshadow.techniques.wedge_passes import WIDEST, edge_texture
 from softshadow.truth import light_visibility
 from techniques.drawn_frames import draw
@@ -71,23 +71,6 @@ def errors_at_its_points(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return run.visibility.ravel()[floor] - truth.visible, points[floor]
 
 
-def slants(scene: Scene, points: np.ndarray) -> np.ndarray:
-    """Return the smallest sine of the angles between a segment and the edges that cross it, seen from points; or 1.
-
-    An edge that has moved aside crosses the segment at another place, the farther off, the smaller the angle is.
-    """
-    (light,), smallest = scene.lights, []
-    assert isinstance(light.shape, Segment)
-    edges = silhouette_edges(scene.casters, light).ends - light.position[:3]
-    for point in points - light.position[:3]:
-        view = light_view(light.shape, point)
-        assert view is not None
-        (u0, v0, w0, _), (u1, v1, w1, _) = project(edges, view, point).transpose(1, 2, 0)
-        along, across = u1 / w1 - u0 / w0, v1 / w1 - v0 / w0
-        smallest.append(np.where(v0 * v1 < 0, np.abs(across) / np.hypot(along, across), 1).min())
-    return np.array(smallest)
-
-
 @each_shape
 @settings(max_examples=5)
 @example(seed=198)  # an edge is almost parallel to the segment
@@ -101,7 +84,7 @@ def test_one_flat_convex_caster_is_exact_to_float_precision(shape: LightShape, s
     scene = over_the_floor(light, sheet)
     errors, points = errors_at_its_points(scene)
     if isinstance(shape, Segment):
-        errors *= slants(scene, points)
+        errors *= slants(scene.casters, light, points)
     assert np.abs(errors).max() < AT_ITS_POINTS
 
 
