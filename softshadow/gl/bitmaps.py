@@ -24,11 +24,12 @@ from softshadow.gl.pixel_memory import source
 from softshadow.gl.raster_draws import (
     EDGES,
     KEPT_VERTICES,
+    MARGIN,
     MOST_VERTICES,
     colors_of,
     draw_at,
     indices_of,
-    normalized,
+    near_positions,
     packed,
     positions,
     raster_vertices,
@@ -38,7 +39,6 @@ from softshadow.gl.render_modes import is_rendered
 from softshadow.pipeline.commands import Draw, Vertices
 from softshadow.pixel_store import PixelStore, bitmap_rows
 
-MARGIN = 256  # pixels outside the window in which characters often begin or end
 KEPT_PLACES = 64  # of a character, where it has been drawn
 KEPT_BYTES = 512  # of a bitmap up to which it may be a character, which is drawn again
 ROUNDING = single(0.0001)  # of Mesa: so much below a whole number is still that number
@@ -85,7 +85,7 @@ class PixelQuads:
         """Return the corners (4 N, 4) in normalized device coordinates."""
         if not (self.is_small and self.is_near(left, bottom, size)):
             return positions(self.quads + np.array([left, bottom, left, bottom]), size, real)
-        return _near_positions(self.x + left, self.y + bottom, size, real)
+        return near_positions(self.x + left, self.y + bottom, size, real)
 
     def is_near(self, left: int, bottom: int, size: tuple[int, int]) -> bool:
         """Return whether the tables of coordinates reach far enough."""
@@ -150,7 +150,7 @@ class Text:
         counts = [each.n_vertices for each in pixels]
         x = np.concatenate([each.x for each in pixels]) + np.repeat(lefts, counts)
         y = np.concatenate([each.y for each in pixels]) + np.repeat(bottoms, counts)
-        position = _near_positions(x, y, self.size, self._real)
+        position = near_positions(x, y, self.size, self._real)
         n, raster, real = len(position), self._raster, self._real
         vertices = raster_vertices(position, colors_of(raster, n, real), texcoords_of(raster, n, real))
         return self._first._replace(vertices=vertices, indices=indices_of(len(position)))
@@ -254,21 +254,6 @@ def runs(bits: np.ndarray) -> np.ndarray:
     row, begin = np.nonzero(steps == 1)
     end = np.nonzero(steps == -1)[1]
     return np.stack([begin, row, end, row + 1], axis=1)
-
-
-def _near_positions(x: np.ndarray, y: np.ndarray, size: tuple[int, int], real: Any) -> np.ndarray:
-    """Return corners (N, 4) in normalized device coordinates, of x and y in pixels not far outside of the window."""
-    position = np.zeros((len(x), 4), real)
-    position[:, 0] = _coordinates(size[0], real)[x + MARGIN]
-    position[:, 1] = _coordinates(size[1], real)[y + MARGIN]
-    position[:, 3] = 1
-    return position
-
-
-@lru_cache(16)
-def _coordinates(side: int, real: Any) -> np.ndarray:
-    """Return normalized device coordinates of the edges of pixels, from `MARGIN` before the window to as many after."""
-    return normalized(np.arange(-MARGIN, side + MARGIN + 1), side, real)
 
 
 def _pixels(bitmap: Any, store: PixelStore, width: int, height: int) -> PixelQuads:

@@ -25,6 +25,7 @@ CORNERS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]])
 CORNERS_FROM_TOP = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 EDGES = 2 * CORNERS + [0, 1]  # of left, bottom, right, top: x and y of each corner
 TRIANGLES = np.array([0, 1, 2, 0, 2, 3])  # a fan, as in Mesa
+MARGIN = 256  # pixels outside the window in which characters and rectangles often begin or end
 KEPT_VERTICES = 1024  # of a draw; a character has some hundred
 MOST_VERTICES = 1 << 14  # of a text: some hundred characters
 
@@ -36,7 +37,14 @@ def raster_vertices(position: np.ndarray, color: np.ndarray, texcoords: tuple[np
     return Vertices(position, color, _for(n, _normals)(_room(n), position.dtype.type)[:n], texcoords)
 
 
-def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Vertices, clamps: bool = False) -> Draw:
+def draw_at(
+    context: Context,
+    state: State,
+    size: tuple[int, int],
+    vertices: Vertices,
+    clamps: bool = False,
+    shown_at: tuple[int, int, int, int] | None = None,
+) -> Draw:
     """Return a draw of quads at the depth of the raster position.
 
     Of the state, that of fragments applies; that of vertices and triangles is replaced.
@@ -48,6 +56,7 @@ def draw_at(context: Context, state: State, size: tuple[int, int], vertices: Ver
         indices=indices_of(n),
         projection=_projection(context.current.raster.window[2], real),
         label="/".join(context.labels) if context.labels else "",
+        shown_at=shown_at,
     )
 
 
@@ -57,6 +66,36 @@ def positions(quads: np.ndarray, size: tuple[int, int], real: Any) -> np.ndarray
     position[:, :, :2] = normalized(quads, size * 2, real)[:, EDGES]
     position[:, :, 2] = 0  # the projection adds the depth: in Mesa, fog is that of the distance 0
     return position.reshape(-1, 4)
+
+
+def corners(x0: float, y0: float, x1: float, y1: float, size: tuple[int, int], real: Any) -> np.ndarray:
+    """Return the corners (4, 4) of one quad, as `positions` does."""
+    low, high = min(x0, y0, x1, y1), max(x0 - size[0], x1 - size[0], y0 - size[1], y1 - size[1])
+    are_whole = x0.is_integer() and y0.is_integer() and x1.is_integer() and y1.is_integer()
+    if not (are_whole and low >= -MARGIN and high <= MARGIN):
+        return positions(np.array([[x0, y0, x1, y1]], np.float32), size, real)
+    left, right, bottom, top = int(x0) + MARGIN, int(x1) + MARGIN, int(y0) + MARGIN, int(y1) + MARGIN
+    x, y = _coordinates(size[0], real), _coordinates(size[1], real)
+    position = np.zeros((4, 4), real)
+    position[:, 0] = x[left], x[right], x[right], x[left]
+    position[:, 1] = y[top], y[top], y[bottom], y[bottom]
+    position[:, 3] = 1
+    return position
+
+
+def near_positions(x: np.ndarray, y: np.ndarray, size: tuple[int, int], real: Any) -> np.ndarray:
+    """Return corners (N, 4) in normalized device coordinates, of x and y in pixels not far outside of the window."""
+    position = np.zeros((len(x), 4), real)
+    position[:, 0] = _coordinates(size[0], real)[x + MARGIN]
+    position[:, 1] = _coordinates(size[1], real)[y + MARGIN]
+    position[:, 3] = 1
+    return position
+
+
+@lru_cache(16)
+def _coordinates(side: int, real: Any) -> np.ndarray:
+    """Return normalized device coordinates of the edges of pixels, from `MARGIN` before the window to as many after."""
+    return normalized(np.arange(-MARGIN, side + MARGIN + 1), side, real)
 
 
 def normalized(pixels: np.ndarray, size: Any, real: Any) -> np.ndarray:

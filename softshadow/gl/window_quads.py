@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, cast
 
 import numpy as np
@@ -10,13 +11,8 @@ from softshadow import tokens as gl
 from softshadow.context import Context
 from softshadow.framebuffer import DEFAULT, LARGEST_SIDE
 from softshadow.frozen import evolve, remembered
-from softshadow.gl.raster_draws import (
-    colors_of,
-    draw_at,
-    positions,
-    raster_vertices,
-    texcoords_of_quad,
-)
+from softshadow.gl.conversions import single, singles
+from softshadow.gl.raster_draws import colors_of, corners, draw_at, raster_vertices, texcoords_of_quad
 from softshadow.image import FORMATS, Format
 from softshadow.pipeline.commands import CopyToTexture, CreateTexture, DefineImage, Draw, SetSampler, UpdateImage
 from softshadow.state import State, TextureUnit
@@ -75,17 +71,24 @@ def _find_texture(context: Context, stored: Format, width: int, height: int) -> 
 
 def _draw_of_texture(context: Context, texture: int, width: int, height: int, left: int, bottom: int) -> Draw:
     """Return the draw that shows the texture of a rectangle so many pixels from the raster position."""
-    zoom_x, zoom_y = np.array(context.pixel_zoom, np.float32)
-    x, y, *_ = context.current.raster.window
-    x0, y0 = rounded(x) + np.float32(left) * zoom_x, rounded(y) + np.float32(bottom) * zoom_y
-    x1, shown_at = x0 + np.float32(width) * zoom_x, _shown_at(context, float(x0), float(y0), width, height)
+    (zoom_x, zoom_y), (x, y, *_) = context.pixel_zoom, context.current.raster.window
+    shift_x, shift_y, side_x, side_y = singles((left * zoom_x, bottom * zoom_y, width * zoom_x, height * zoom_y))
+    x0, y0 = singles((rounded(x) + shift_x, rounded(y) + shift_y))
+    x1, y1 = singles((x0 + side_x, y0 + side_y))
+    shown_at = _shown_at(context, x0, y0, width, height)
+    size = context.objects.framebuffers[context.state.draw_framebuffer].size
     in_object = context.state.draw_framebuffer != DEFAULT
     if in_object:  # where Mesa counts rows from the top, and takes the whole part of the rectangle's upper end
-        size = context.objects.framebuffers[context.state.draw_framebuffer].size
-        y0 = size[1] - np.trunc(y0 + np.float32(height) * zoom_y)
-    quad = np.array([[x0, y0, x1, y0 + np.float32(height) * zoom_y]], np.float32)
+        y0 = single(size[1] - math.modf(y1)[1])
+        y1 = single(y0 + side_y)
     state = _textured(context.state, FIRST_UNITS[texture], in_object and shown_at is None)
-    return _draw_of_quad(context, quad, state)._replace(shown_at=shown_at)
+    real = cast(Any, context.real)
+    position = corners(x0, y0, x1, y1, size, real)
+    if in_object:
+        position[:, 1] = -position[:, 1]
+    raster = context.current.raster
+    vertices = raster_vertices(position, colors_of(raster, 4, real), texcoords_of_quad(raster, not in_object, real))
+    return draw_at(context, state, size, vertices, clamps=state.depth.clamp, shown_at=shown_at)
 
 
 def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> tuple[int, int, int, int] | None:
@@ -93,17 +96,19 @@ def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> 
 
     In these bounds, rounding errors of texture coordinates cannot reach the next texel.
     """
-    are_near = all(abs(number) <= LARGEST_SIDE for number in (x, y, width, height))
-    are_whole = all(zoom.is_integer() and 1 <= abs(zoom) <= LARGEST_ZOOM for zoom in context.pixel_zoom)
-    if not are_near or not are_whole or not 0 <= context.current.raster.window[2] <= 1:
-        return None
     zoom_x, zoom_y = context.pixel_zoom
+    if not (zoom_x.is_integer() and zoom_y.is_integer() and 0 <= context.current.raster.window[2] <= 1):
+        return None
+    if not (1 <= abs(zoom_x) <= LARGEST_ZOOM and 1 <= abs(zoom_y) <= LARGEST_ZOOM):
+        return None
+    if max(abs(x), abs(y), width, height) > LARGEST_SIDE or x != x or y != y:
+        return None
     return int(x), int(y), int(zoom_x), int(zoom_y)
 
 
-def rounded(coordinate: float) -> np.float32:
+def rounded(coordinate: float) -> float:
     """Return the nearest whole number; halves are rounded away from 0."""
-    return np.float32(np.trunc(coordinate + np.copysign(0.5, coordinate)))
+    return math.modf(coordinate + math.copysign(0.5, coordinate))[1]
 
 
 FIRST_UNITS = {name: TextureUnit(enabled_2d=True, bound_2d=name, env_mode=gl.GL_REPLACE) for name in TEXTURES}
@@ -115,16 +120,3 @@ def _textured(state: State, first: TextureUnit, upper_edges: bool) -> State:
     others = tuple(evolve(unit, **dict.fromkeys(SWITCHES.values(), False)) for unit in state.units[1:])
     polygon = evolve(state.polygon, upper_edges=True) if upper_edges else state.polygon
     return evolve(state, units=(first, *others), polygon=polygon)
-
-
-def _draw_of_quad(context: Context, quad: np.ndarray, state: State) -> Draw:
-    """Return a draw of a quad (1, 4) that shows the whole texture of unit 0."""
-    real = cast(Any, context.real)
-    size = context.objects.framebuffers[state.draw_framebuffer].size
-    in_window = state.draw_framebuffer == DEFAULT
-    position = positions(quad, size, real)
-    if not in_window:
-        position[:, 1] = -position[:, 1]
-    raster = context.current.raster
-    vertices = raster_vertices(position, colors_of(raster, 4, real), texcoords_of_quad(raster, in_window, real))
-    return draw_at(context, state, size, vertices, clamps=state.depth.clamp)

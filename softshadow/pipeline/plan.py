@@ -136,6 +136,11 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
     if not short_cuts.get():
         path.note("short cuts are off")
         return plan
+    if command.shown_at is not None and counts is None and not (in_order or is_special):
+        if writes_color and is_shown(command, target, front):
+            path.fill, path.shading = "rectangle", "copy of the texels"
+            path.note("each pixel shows its texel, and only the scissor box tests it")
+            return plan._replace(show_rectangle=show_rectangle)
     front, back = without_equal_writes(front), without_equal_writes(back)
     plan = plan._replace(front=front, back=back)
     if counts is not None:
@@ -146,10 +151,6 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
         return plan._replace(forward=True, watch=Watch if only_lessens_depths(front, back) else None)
     if is_special:  # its fragments are not those of its triangles, which surfaces drawn before are compared by
         return plan._replace(forward=True)
-    if not in_order and writes_color and is_shown(command, target, front):
-        path.fill, path.shading = "rectangle", "copy of the texels"
-        path.note("each pixel shows its texel, and only the scissor box tests it")
-        return plan._replace(show_rectangle=show_rectangle)
     plan = plan._replace(watch=Watch if only_lessens_depths(front, back) else None)
     if in_order:
         only_writes_color = writes_color and not tests_alpha(state)

@@ -4,6 +4,7 @@ Fragments are written one after the other: without blending, the last one of a p
 """
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -52,8 +53,12 @@ def color_writer(state: State, color: Image) -> Callable[[Spans, np.ndarray], No
 
 def writable_bits(state: State, color: Image) -> Any:
     """Return a pixel of 32 bits; the bits that the colour mask and the format of the buffer let through are set."""
-    mask = np.array(state.color.mask) & np.array(color.format.written)
-    return as_pixels(np.where(mask, np.uint8(255), np.uint8(0)))[()]
+    return _writable_bits(state.color.mask, color.format.written)
+
+
+@cache
+def _writable_bits(mask: tuple[bool, ...], written: tuple[bool, ...]) -> Any:
+    return as_pixels(np.where(np.array(mask) & np.array(written), np.uint8(255), np.uint8(0)))[()]
 
 
 def as_pixels(cells: np.ndarray) -> np.ndarray:
