@@ -16,7 +16,8 @@ EDGES = st.tuples(WHOLE, WHOLE, WHOLE, WHOLE) | st.tuples(*[WHOLE | SINGLE] * 4)
 @pytest.mark.parametrize("real", [np.float32, np.float64])
 @given(edges=EDGES)
 def test_the_corners_of_one_quad_are_those_that_many_have(real, edges):
+    left, bottom, right, top = edges
     with np.errstate(over="ignore"):  # of the largest numbers
-        one, many = corners(*edges, SIZE, real), positions(np.array([edges], np.float32), SIZE, real)
+        one, many = corners(left, bottom, right, top, SIZE, real), positions(np.array([edges], np.float32), SIZE, real)
     np.testing.assert_array_equal(one, many)
     assert one.dtype == many.dtype == real
