@@ -12,7 +12,7 @@ from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, Draw
+from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, Draw, UpdateImage
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
@@ -60,10 +60,12 @@ class CommandStream:
         self._line_pattern = LinePattern(self.objects)
 
     def carry_out(self, command: Command) -> None:
-        """Carry out and record a command; one that raises is not recorded."""
+        """Carry out and record a command; one that raises is not recorded. New texels wait among late draws."""
         if self.text is not None:
             self.draw_text()
         if self.late.draws:
+            if type(command) is UpdateImage and self.gate is None and self.late.add_texels(command):
+                return
             self.draw_late()
         if self.gate is not None and not self.gate(command):
             return
@@ -154,7 +156,7 @@ class CommandStream:
         """Let late draws wait in the queue; return False, and do nothing, where each must be looked at."""
         if self.text is not None or self.gate is not None or late.parts[0][0].state.lines.stippled:
             return False
-        return self._queue.add_in_turns(late.parts, late.turns)
+        return self._queue.add_in_turns(late.parts, late.turns, late.texels)
 
     def carry_out_waiting(self) -> None:
         """Carry out the draws that wait in the queue."""

@@ -202,7 +202,7 @@ class Context(CurrentValues, Precision):
     # -- commands ------------------------------------------------------------------------------------------------------
     def execute(self, command: Command) -> None:
         """Carry out a command, then record it; a command that raises is not recorded."""
-        self.flush()
+        self.separate()
         self.stream.carry_out(command)
 
     def flush(self) -> None:

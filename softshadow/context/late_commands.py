@@ -14,37 +14,47 @@ import numpy as np
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.late_forms import LateDraw, MovedDraw, matrices_of
 from softshadow.context.precision import Precision
-from softshadow.pipeline.alike_draws import AlikeDraws, each_of
+from softshadow.pipeline.alike_draws import TEXELS, AlikeDraws, each_of
 from softshadow.pipeline.alike_vertices import Attribute, GivenVertices, JoinedVertices
-from softshadow.pipeline.commands import Draw, Vertices, moved_draws
+from softshadow.pipeline.commands import Command, Draw, UpdateImage, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
 MANY = 24  # draws that are alike: to handle arrays of fewer takes longer than to make these draws
 
 
-class LateCommands(Collection[Draw]):
-    """Late draws in their order, which are made when someone looks at them.
+class LateCommands(Collection[Command]):
+    """Late draws in their order, which are made when someone looks at them, and new texels of textures among them.
 
     Parameters
     ----------
     draws : sequence         of LateDraw and MovedDraw
     keys : sequence of int   those of draws that are alike are equal
     precision : Precision    makes the arrays
+    texels : sequence        of (number of draws before, UpdateImage), in their order; there is a draw before the first
 
     Attributes
     ----------
     parts : list             each of draws that differ from each other in vertices, indices and modelview matrix only:
                              `AlikeDraws` or a list. The vertices of each part have arrays of the same attributes.
-    turns : list             (number of a part, number of its next draws), in drawing order
+    turns : list             (number of a part, number of its next draws), in drawing order; where the number is
+                             `TEXELS`, that of the next new texels
+    texels : list            new texels, in their order
     vertices : list          those of the draws that are no pairs
     indices : list           those of all draws
     """
 
-    def __init__(self, draws: Sequence[LateDraw | MovedDraw], keys: Sequence[int], precision: Precision) -> None:
+    def __init__(
+        self,
+        draws: Sequence[LateDraw | MovedDraw],
+        keys: Sequence[int],
+        precision: Precision,
+        texels: Sequence[tuple[int, UpdateImage]] = (),
+    ) -> None:
         self._joined: list[JoinedVertices] = []
         self.vertices: list[Vertices] = []
         self.indices: list[np.ndarray] = []
-        if len(set(keys)) == 1:
+        self.texels = [command for _, command in texels]
+        if len(set(keys)) == 1 and not texels:
             self.turns, self.parts = [(0, len(draws))], self._parts([list(draws)], precision)
             return
         numbers: dict[int, int] = {}
@@ -54,23 +64,29 @@ class LateCommands(Collection[Draw]):
             if number == len(alike):
                 alike.append([])
             alike[number].append(draw)
-        self.turns = [(numbers[key], len(list(same))) for key, same in groupby(keys)]
+        self.turns, start = [], 0
+        for end in (*[n_before for n_before, _ in texels], len(keys)):
+            self.turns += [(numbers[key], len(list(same))) for key, same in groupby(keys[start:end])]
+            self.turns.append((TEXELS, 1))
+            start = end
+        self.turns.pop()  # no texels follow the last draws
         self.parts = self._parts(alike, precision)
 
     @property
     def arrays(self) -> list[np.ndarray]:
-        """The arrays of pairs."""
-        return [array for vertices in self._joined for array in vertices.arrays]
+        """The arrays of pairs, and new texels."""
+        texels = [array for each in self.texels for array in (each.cells, each.stencil) if array is not None]
+        return [array for vertices in self._joined for array in vertices.arrays] + texels
 
     def __len__(self) -> int:
         return sum([count for _, count in self.turns])
 
-    def __iter__(self) -> Iterator[Draw]:
-        rest = list(map(iter, self.parts))
+    def __iter__(self) -> Iterator[Command]:
+        rest: list[Iterator[Command]] = [*map(iter, self.parts), iter(self.texels)]
         return chain.from_iterable(islice(rest[number], count) for number, count in self.turns)
 
-    def __contains__(self, draw: object) -> bool:
-        return any(each is draw for each in self)
+    def __contains__(self, command: object) -> bool:
+        return any(each is command for each in self)
 
     def _parts(self, alike: Sequence[list[LateDraw | MovedDraw]], precision: Precision) -> list[Sequence[Draw]]:
         """Return the draws of each part."""

@@ -13,10 +13,11 @@ from itertools import groupby
 from softshadow.context.late_commands import LateCommands
 from softshadow.context.late_forms import LateDraw, LateForm, MovedDraw
 from softshadow.context.precision import Precision
-from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.commands import Draw, UpdateImage, texel_bytes
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
+MOST_BYTES, MOST_UPDATES = 1 << 20, 512  # of texels among the draws
 MOVED_NUMBERS = 16  # as which a draw counts whose arrays have been made
 MOST_FORMS = 1024  # as many as there are states that are found again
 
@@ -46,7 +47,8 @@ class LateDraws:
         self.draws: list[LateDraw | MovedDraw] = []
         self.earlier: dict[tuple[int, int, int, tuple[int, ...]], Draw] = {}
         self.forms: dict[tuple[Hashable, ...], LateForm] = {}
-        self._n_numbers = 0
+        self._texels: list[tuple[int, UpdateImage]] = []  # with the number of draws before
+        self._n_numbers, self._n_bytes = 0, 0
 
     def keep_form(self, key: tuple[Hashable, ...], form: LateForm) -> None:
         """Keep a form, which keeps its state, for other draws."""
@@ -60,13 +62,26 @@ class LateDraws:
         self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS
 
+    def add_texels(self, command: UpdateImage) -> bool:
+        """Let new texels wait behind the draws, of which there are some; return False if that does not pay."""
+        if command.blocks is not None or len(self._texels) == MOST_UPDATES:
+            return False
+        before = self._texels[-1][0] if self._texels else 0
+        n_bytes = self._n_bytes + texel_bytes(command)
+        if n_bytes > MOST_BYTES or any(map(_is_stippled, self.draws[before:])):
+            return False
+        self._texels.append((len(self.draws), command))
+        self._n_bytes = n_bytes
+        return True
+
     def take(self) -> Iterator[LateCommands]:
         """Yield the draws in their order, and forget them."""
-        draws, self.draws, self._n_numbers = self.draws, [], 0
+        draws, texels, self.draws, self._texels = self.draws, self._texels, [], []
+        self._n_numbers, self._n_bytes = 0, 0
         keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
-        if not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
+        if texels or not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
             if draws:
-                yield LateCommands(draws, keys, self._precision)
+                yield LateCommands(draws, keys, self._precision, texels)
             return
         for _, same in groupby(zip(draws, keys, strict=True), lambda each: _is_stippled(each[0])):
             own, own_keys = zip(*same, strict=True)

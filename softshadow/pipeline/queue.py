@@ -14,7 +14,7 @@ from itertools import islice, takewhile
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Storage
-from softshadow.pipeline.alike_draws import DrawList, vertex_counts
+from softshadow.pipeline.alike_draws import TEXELS, DrawList, vertex_counts
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
     Accumulate,
@@ -30,6 +30,7 @@ from softshadow.pipeline.commands import (
     GenerateMipmaps,
     SetSampler,
     UpdateImage,
+    texel_bytes,
 )
 from softshadow.pipeline.draw_kinds import Kind, Kinds
 from softshadow.pipeline.execute import execute
@@ -119,12 +120,17 @@ class DrawQueue:
         others = list(takewhile(continues_moved, commands[1:]))
         return 1 + len(others) if self._add_others(commands[0], others) else 1
 
-    def add_in_turns(self, parts: Sequence[Sequence[Draw]], turns: Sequence[tuple[int, int]]) -> bool:
+    def add_in_turns(
+        self,
+        parts: Sequence[Sequence[Draw]],
+        turns: Sequence[tuple[int, int]],
+        texels: Sequence[UpdateImage] = (),
+    ) -> bool:
         """Let small draws wait; return False, and do nothing, if they must be looked at one by one.
 
         The draws of each part differ in vertices and modelview matrix only, as those of `add_like`. `turns` are numbers
         of parts, and how many of its next draws come there: a program that changes the mode or the state between small
-        draws goes back and forth between a few kinds.
+        draws goes back and forth between a few kinds. Where the number is `TEXELS`, the next of `texels` come.
         """
         if len(turns) == 1 == len(parts[0]):
             return self.add(parts[0][0])
@@ -135,7 +141,9 @@ class DrawQueue:
                 return False
             kinds.append(kind)
         n_draws, n_vertices = sum(map(len, parts)), sum([sum(vertex_counts(part)) for part in parts])
-        is_full = self._n_commands + n_draws > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        n_commands, n_bytes = n_draws + len(texels), sum(map(texel_bytes, texels))
+        is_full = self._n_commands + n_commands > MOST_DRAWS or self._n_vertices + n_vertices > MOST_VERTICES
+        is_full = is_full or self._n_bytes + n_bytes > MOST_BYTES
         if not self._are_small and n_draws < FEW and kinds[turns[0][0]] is self._kind:
             return False  # the first ones belong to the large draws that wait
         if is_full or not (self._are_small or all(kind is self._kind for kind in kinds)):
@@ -145,16 +153,21 @@ class DrawQueue:
         else:
             places = {number: self._add_to_batch(number, own) for number, own in _by_batch(kinds, parts, turns).items()}
         firsts, query = [part[0] for part in parts], self._storage.active_query
+        rest = iter(texels)
         for number, count in turns:
-            kind = kinds[number]
+            if number == TEXELS:
+                self._append(next(rest))
+                continue
+            last, kind = number, kinds[number]
             place = places[kind.batch]
             places[kind.batch] = end = place + count
             self._add_segment(kind, firsts[number], place, end, query)
         for kind, first in zip(kinds, firsts, strict=True):
             self._note_uses(kind, first.state, query)
+        self._textures.update([command.texture for command in texels])
         self._n_commands += n_draws
         self._n_vertices += n_vertices
-        last, _ = turns[-1]
+        self._n_bytes += n_bytes
         self._kind, self._like = kinds[last], firsts[last]
         if self._n_commands >= MOST_DRAWS:
             self.carry_out()
@@ -267,7 +280,7 @@ class DrawQueue:
         """Let new texels wait behind draws that may use the texture; return False if none waits."""
         if not self._may_use(command.texture):
             return False
-        n_bytes = sum(array.nbytes for array in (command.cells, command.stencil) if array is not None)
+        n_bytes = texel_bytes(command)
         if command.blocks is not None or self._n_bytes + n_bytes > MOST_BYTES:
             self.carry_out()
             return False
@@ -321,5 +334,6 @@ def _by_batch(
     draws: dict[int, list[Draw]] = {kind.batch: [] for kind in kinds}
     rest = list(map(iter, parts))
     for number, count in turns:
-        draws[kinds[number].batch] += islice(rest[number], count)
+        if number != TEXELS:
+            draws[kinds[number].batch] += islice(rest[number], count)
     return draws
