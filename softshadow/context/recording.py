@@ -238,13 +238,26 @@ class Frame:
         """Drop the commands before the mark, and set it here; `storage` is as all commands left it."""
         if self._mark is not None:
             count, self.start = self._mark
-            del self.commands[:count]
+            self._drop(count)
             steps = [(title, end - count) for title, end in self.steps if end > count]
             self.dropped += count
             self.dropped_steps += len(self.steps) - len(steps)
             self.steps[:] = steps
         self._mark = self.n_commands, copy_storage(storage)
         self._older, self._newer, self._most_bytes = self._newer, Contents(self._newer), 0
+
+    def _drop(self, count: int) -> None:
+        """Forget the first commands; draws among them that are not made yet need not be made."""
+        rest, n_whole = count - len(self.made), 0
+        del self.made[:count]
+        for commands in self.following:
+            if rest < len(commands):
+                break
+            rest -= len(commands)
+            n_whole += 1
+        del self.following[:n_whole]
+        if rest > 0:  # the last one goes on behind
+            del self.commands[:rest]
 
     def begin(self, storage: Storage) -> None:
         """Begin with a copy of a storage: what has been recorded is its past, and no part of the recording."""

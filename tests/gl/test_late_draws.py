@@ -8,6 +8,7 @@ import pytest
 from softshadow import gl
 from softshadow.context import late_commands, late_draws
 from softshadow.gl import pair_numbers
+from softshadow.pipeline.alike_draws import AlikeDraws
 from softshadow.pipeline.commands import Clear, Draw
 
 SIZE = 16, 16
@@ -387,3 +388,31 @@ def test_a_bounded_recording_drops_draws_that_are_not_made():
         assert frame.dropped > 0
         assert frame.dropped + len(frame.commands) == 40 * late_commands.MANY
         assert frame.bytes <= 0.25 * 2**20
+
+
+def test_draws_that_are_dropped_are_not_made(monkeypatch):
+    made = []
+    draws = AlikeDraws.__dict__["draws"]
+    monkeypatch.setattr(draws, "func", lambda alike, make=draws.func: made.append(alike) or make(alike))
+    with gl.create_context(*SIZE, history_mb=0.25) as context:
+        for _ in range(40):
+            objects(late_commands.MANY)
+            gl.glFinish()
+        assert context.frame.dropped > 0
+        assert not made
+        assert context.frame.commands
+        assert made
+
+
+@pytest.mark.parametrize("count", range(11))
+def test_a_recording_may_be_cut_within_draws_that_are_not_made(context, count):
+    objects(4)
+    context.flush()
+    assert len(context.frame.commands) == 4  # they are made
+    for number in (2, 4):
+        objects(number)
+        context.flush()
+    assert len(context.frame.following) == 2
+    context.frame._drop(count)
+    shifts = [command.modelview[0, 3] for command in context.frame.commands]
+    assert shifts == [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.25, 2.5, 2.75, 3.0][count:]
