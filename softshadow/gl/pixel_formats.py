@@ -9,6 +9,11 @@ from softshadow.pixel_store import COMPONENTS, PACKED_TYPES, TYPES
 from softshadow.tokens import token_name
 
 Problem = tuple[int, str]  # GL error code and message
+KINDS = {  # of buffers, by the client format of their values; of all others, "color"
+    gl.GL_DEPTH_COMPONENT: "depth",
+    gl.GL_STENCIL_INDEX: "stencil",
+    gl.GL_DEPTH_STENCIL: "depth-stencil",
+}
 
 
 def format_problem(format: int, type: int) -> Problem | None:
@@ -43,12 +48,7 @@ TYPE_NAMES = ("GL_BYTE", "GL_DOUBLE")
 
 def kind_of(format: int) -> str:
     """Return the kind of buffer of a client format: "depth", "stencil", "depth-stencil" or "color"."""
-    kinds = {
-        gl.GL_DEPTH_COMPONENT: "depth",
-        gl.GL_STENCIL_INDEX: "stencil",
-        gl.GL_DEPTH_STENCIL: "depth-stencil",
-    }
-    return kinds.get(format, "color")
+    return KINDS.get(format, "color")
 
 
 def upload_problem(format: int, stored: Format, has_stencil: bool) -> Problem | None:

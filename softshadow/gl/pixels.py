@@ -11,7 +11,7 @@ from softshadow import tokens as gl
 from softshadow.framebuffer import Framebuffer
 from softshadow.frozen import evolve
 from softshadow.gl.calls import spelled_like_gl
-from softshadow.gl.conversions import nearest_int
+from softshadow.gl.conversions import LARGEST_INT, nearest_int
 from softshadow.gl.errors import fail, outside_begin
 from softshadow.gl.framebuffers import framebuffer_status
 from softshadow.gl.pixel_formats import format_problem, kind_of
@@ -77,7 +77,9 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     operation = "glReadPixels"
     if (context := outside_begin(operation)) is None:
         return None
-    width, height = c_int(int(width)).value, c_int(int(height)).value  # larger numbers are negative in C
+    width, height = int(width), int(height)
+    if max(width, height) > LARGEST_INT:  # in C, most larger numbers are negative
+        width, height = c_int(width).value, c_int(height).value
     if width < 0 or height < 0:
         return fail(gl.GL_INVALID_VALUE, operation, f"width={width}, height={height}: expected 0 or more")
     if problem := format_problem(format, type):
@@ -87,9 +89,10 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
     source = context.objects.framebuffers[context.state.read_framebuffer]
     if framebuffer_status(context, source.name) != gl.GL_FRAMEBUFFER_COMPLETE:
         return fail(gl.GL_INVALID_FRAMEBUFFER_OPERATION, operation, f"framebuffer {source.name} is not complete")
-    buffers = _buffers(source, kind_of(format))
+    kind = kind_of(format)
+    buffers = _buffers(source, kind)
     if buffers is None:
-        missing = kind_of(format).replace("-", " or ").replace("color", "colour")
+        missing = kind.replace("-", " or ").replace("color", "colour")
         return fail(gl.GL_INVALID_OPERATION, operation, f"framebuffer {source.name} has no {missing} buffer to read")
     where = image_destination(context, array, width, height, 0, format, type, operation)
     if where is None:
@@ -104,12 +107,12 @@ def glReadPixels(x: int, y: int, width: int, height: int, format: int, type: int
 
 
 def _buffers(source: Framebuffer, kind: str) -> list[Image] | None:
+    """Return what values of a kind are read from, or None if a buffer is missing."""
     if kind == "color":
-        wanted = [source.read_color]
-    elif kind == "depth-stencil":
-        wanted = [source.depth, source.stencil]
-    else:
-        wanted = [source.depth if kind == "depth" else source.stencil]
+        color = source.read_color
+        return None if color is None else [color]
+    depth, stencil = source.depth, source.stencil
+    wanted = {"depth": (depth,), "stencil": (stencil,), "depth-stencil": (depth, stencil)}[kind]
     buffers = [buffer for buffer in wanted if buffer is not None]
     return buffers if len(buffers) == len(wanted) else None
 

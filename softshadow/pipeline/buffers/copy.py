@@ -33,9 +33,11 @@ def bottom_up(target: Framebuffer, image: Image) -> np.ndarray:
 def clipped(target: Framebuffer, x: int, y: int, width: int, height: int) -> tuple[slice, slice, int, int]:
     """Return the rows and columns of a rectangle inside the framebuffer, and the shift of its lower left corner."""
     total_width, total_height = target.size
+    if 0 <= x <= x + width <= total_width and 0 <= y <= y + height <= total_height:
+        return slice(y, y + height), slice(x, x + width), 0, 0
     left, bottom = min(max(x, 0), total_width), min(max(y, 0), total_height)
     right, top = min(max(x + width, left), total_width), min(max(y + height, bottom), total_height)
-    return np.s_[bottom:top], np.s_[left:right], left - x, bottom - y
+    return slice(bottom, top), slice(left, right), left - x, bottom - y
 
 
 def copy_to_texture(command: CopyToTexture, storage: Storage) -> None:
