@@ -57,10 +57,10 @@ class LateDraws:
         self.forms[key] = form
 
     def add(self, draw: LateDraw | MovedDraw) -> bool:
-        """Let a draw wait; return whether so many wait that they should be taken."""
+        """Let a draw wait; return whether all should be taken: many wait, or this one's pattern goes on behind texels."""
         self.draws.append(draw)
         self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
-        return self._n_numbers >= MOST_NUMBERS
+        return self._n_numbers >= MOST_NUMBERS or bool(self._texels and _is_stippled(draw))
 
     def add_texels(self, command: UpdateImage) -> bool:
         """Let new texels wait behind the draws, of which there are some; return False if that does not pay."""
@@ -79,7 +79,10 @@ class LateDraws:
         draws, texels, self.draws, self._texels = self.draws, self._texels, [], []
         self._n_numbers, self._n_bytes = 0, 0
         keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
-        if texels or not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
+        if texels and _is_stippled(draws[-1]):
+            yield LateCommands(draws[:-1], keys[:-1], self._precision, texels)
+            draws, keys, texels = draws[-1:], keys[-1:], []
+        if not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
             if draws:
                 yield LateCommands(draws, keys, self._precision, texels)
             return

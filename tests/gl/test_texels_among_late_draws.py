@@ -9,7 +9,7 @@ from softshadow import gl
 from softshadow.context import late_draws
 from softshadow.gl import pair_numbers
 from softshadow.pipeline import queue, use_short_cuts
-from softshadow.pipeline.commands import Draw, UpdateImage
+from softshadow.pipeline.commands import Command, Draw, UpdateImage
 
 SIZE, SIDE = (24, 16), 4
 TEXTURES = 1, 2, 3
@@ -41,6 +41,7 @@ def prepare() -> None:
         gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, SIDE, SIDE, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, None)
         update(texture, 40 * texture)
     gl.glEnable(gl.GL_TEXTURE_2D)
+    gl.glLineStipple(1, 0x0FF0)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 1)
     gl.glFramebufferTexture2D(*ATTACHED, TEXTURES[-1], 0)
     gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, 0)
@@ -152,6 +153,17 @@ def test_none_wait_behind_a_pattern_that_goes_on(context):
     assert waiting(context) == 0
 
 
+def test_a_pattern_behind_them_goes_on(context):
+    quad(-1.0)
+    update(1, 90)
+    gl.glEnable(gl.GL_LINE_STIPPLE)
+    for left in (-0.25, -2.0):  # the first line of the second strip is outside
+        quad(left, gl.GL_LINE_STRIP)
+    gl.glFinish()
+    strips = [command for command in context.frame.commands if type(command) is Draw][-2:]
+    assert [strip.stipple_place > 0 for strip in strips] == [False, True]
+
+
 def test_none_wait_while_draws_depend_on_a_query(context):
     gl.glBeginConditionalRender(1, gl.GL_QUERY_WAIT)
     quad(-1.0)
@@ -187,11 +199,11 @@ def test_a_bounded_recording_counts_them():
 def random_program(random: Random) -> list[tuple]:
     """Return calls: small draws, new texels among them, and sometimes something else."""
     calls: list[tuple] = []
-    for _ in range(random.randrange(5, 40)):
+    for _ in range(random.randrange(5, 60)):
         kind = random.random()
-        if kind < 0.4:
-            calls.append((quad, random.uniform(-1.5, 1.0), random.choice([gl.GL_QUADS] * 4 + [gl.GL_LINE_LOOP])))
-        elif kind < 0.7:
+        if kind < 0.5:
+            calls.append((quad, random.uniform(-2.0, 1.5), random.choice([gl.GL_QUADS, gl.GL_QUADS, gl.GL_LINE_STRIP])))
+        elif kind < 0.75:
             side = random.randint(1, SIDE)
             corner = random.randint(0, SIDE - side)
             calls.append((update, random.choice(TEXTURES), random.randrange(256), side, corner))
@@ -202,7 +214,9 @@ def random_program(random: Random) -> list[tuple]:
                         (gl.glBindTexture, gl.GL_TEXTURE_2D, random.choice(TEXTURES)),
                         (gl.glCallList, 1),
                         (gl.glColor3f, random.random(), 1.0, 1.0),
-                        (gl.glEnable, random.choice([gl.GL_BLEND, gl.GL_LINE_STIPPLE, gl.GL_TEXTURE_2D])),
+                        (gl.glEnable, random.choice([gl.GL_BLEND, gl.GL_TEXTURE_2D])),
+                        (gl.glEnable, gl.GL_LINE_STIPPLE),
+                        (gl.glEnable, gl.GL_LINE_STIPPLE),
                         (gl.glDisable, random.choice([gl.GL_BLEND, gl.GL_LINE_STIPPLE, gl.GL_TEXTURE_2D])),
                         (gl.glBlendFunc, gl.GL_ONE, gl.GL_ONE),
                         (gl.glBindFramebuffer, gl.GL_FRAMEBUFFER, random.randrange(2)),
@@ -226,8 +240,14 @@ def carried_out(calls: list[tuple]) -> tuple[list[str], list[bytes]]:
             call(*arguments)
         textures = context.storage.textures
         images = [context.storage.window.color, *[textures[texture].images[0, 0] for texture in TEXTURES]]
-        names = [f"{type(each).__name__} {getattr(each, 'modelview', '')}" for each in context.frame.commands]
-        return names, [image.cells.tobytes() for image in images]
+        named = [*map(described, context.frame.commands)]
+        return named, [image.cells.tobytes() for image in images]
+
+
+def described(command: Command) -> str:
+    if not isinstance(command, Draw):
+        return repr(command)
+    return f"{command.mode} {command.modelview} {command.stipple_place} {command.state.lines.stippled}"
 
 
 @pytest.mark.parametrize("seed", range(60))
