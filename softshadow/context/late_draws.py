@@ -57,7 +57,7 @@ class LateDraws:
         self.forms[key] = form
 
     def add(self, draw: LateDraw | MovedDraw) -> bool:
-        """Let a draw wait; return whether all should be taken: many wait, or this one's pattern goes on behind texels."""
+        """Let a draw wait; return whether to take all: many wait, or this one's pattern goes on behind texels."""
         self.draws.append(draw)
         self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS or bool(self._texels and _is_stippled(draw))
