@@ -196,6 +196,12 @@ def test_a_bounded_recording_counts_them():
         assert context.frame.bytes <= 0.25 * 2**20
 
 
+def draw_to(framebuffer: int) -> None:
+    """Draw to a framebuffer; what is drawn to framebuffer 1 reads no texture, as it would read what it writes."""
+    gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, framebuffer)
+    (gl.glDisable if framebuffer else gl.glEnable)(gl.GL_TEXTURE_2D)
+
+
 def random_program(random: Random) -> list[tuple]:
     """Return calls: small draws, new texels among them, and sometimes something else."""
     calls: list[tuple] = []
@@ -214,12 +220,12 @@ def random_program(random: Random) -> list[tuple]:
                         (gl.glBindTexture, gl.GL_TEXTURE_2D, random.choice(TEXTURES)),
                         (gl.glCallList, 1),
                         (gl.glColor3f, random.random(), 1.0, 1.0),
-                        (gl.glEnable, random.choice([gl.GL_BLEND, gl.GL_TEXTURE_2D])),
+                        (gl.glEnable, gl.GL_BLEND),
                         (gl.glEnable, gl.GL_LINE_STIPPLE),
                         (gl.glEnable, gl.GL_LINE_STIPPLE),
-                        (gl.glDisable, random.choice([gl.GL_BLEND, gl.GL_LINE_STIPPLE, gl.GL_TEXTURE_2D])),
+                        (gl.glDisable, random.choice([gl.GL_BLEND, gl.GL_LINE_STIPPLE])),
                         (gl.glBlendFunc, gl.GL_ONE, gl.GL_ONE),
-                        (gl.glBindFramebuffer, gl.GL_FRAMEBUFFER, random.randrange(2)),
+                        (draw_to, random.randrange(2)),
                         (gl.glCopyTexSubImage2D, gl.GL_TEXTURE_2D, 0, 0, 0, 3, 3, 2, 2),
                         (gl.glGenerateMipmap, gl.GL_TEXTURE_2D),
                         (gl.glClear, gl.GL_COLOR_BUFFER_BIT),
