@@ -12,10 +12,12 @@ from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, Draw, UpdateImage
+from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, DefineImage, Draw, UpdateImage
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.queue import DrawQueue
+
+WITH_TEXELS = DefineImage, UpdateImage
 
 
 class CollectedText(Protocol):
@@ -64,7 +66,7 @@ class CommandStream:
         if self.text is not None:
             self.draw_text()
         if self.late.draws:
-            if type(command) is UpdateImage and self.gate is None and self.late.add_texels(command):
+            if isinstance(command, WITH_TEXELS) and self._add_texels(command):
                 return
             self.draw_late()
         if self.gate is not None and not self.gate(command):
@@ -136,6 +138,10 @@ class CommandStream:
             self.draw_text()
         if self.late.add(draw):
             self.draw_late()
+
+    def _add_texels(self, command: DefineImage | UpdateImage) -> bool:
+        """Let new texels wait among late draws; return False if they must be carried out."""
+        return self.gate is None and changes_cells_only(command, self.objects) and self.late.add_texels(command)
 
     def draw_text(self) -> None:
         """Carry out and record the bitmaps that are collected."""

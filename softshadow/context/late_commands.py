@@ -16,7 +16,7 @@ from softshadow.context.late_forms import LateDraw, MovedDraw, matrices_of
 from softshadow.context.precision import Precision
 from softshadow.pipeline.alike_draws import TEXELS, AlikeDraws, each_of
 from softshadow.pipeline.alike_vertices import Attribute, GivenVertices, JoinedVertices
-from softshadow.pipeline.commands import Command, Draw, UpdateImage, Vertices, moved_draws
+from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
 
 MANY = 24  # draws that are alike: to handle arrays of fewer takes longer than to make these draws
@@ -30,7 +30,8 @@ class LateCommands(Collection[Command]):
     draws : sequence         of LateDraw and MovedDraw
     keys : sequence of int   those of draws that are alike are equal
     precision : Precision    makes the arrays
-    texels : sequence        of (number of draws before, UpdateImage), in their order; there is a draw before the first
+    texels : sequence        of (number of draws before, DefineImage or UpdateImage), in their order; there is a draw
+                             before the first
 
     Attributes
     ----------
@@ -48,7 +49,7 @@ class LateCommands(Collection[Command]):
         draws: Sequence[LateDraw | MovedDraw],
         keys: Sequence[int],
         precision: Precision,
-        texels: Sequence[tuple[int, UpdateImage]] = (),
+        texels: Sequence[tuple[int, DefineImage | UpdateImage]] = (),
     ) -> None:
         self._joined: list[JoinedVertices] = []
         self.vertices: list[Vertices] = []

@@ -13,7 +13,7 @@ from itertools import groupby
 from softshadow.context.late_commands import LateCommands
 from softshadow.context.late_forms import LateDraw, LateForm, MovedDraw
 from softshadow.context.precision import Precision
-from softshadow.pipeline.commands import Draw, UpdateImage, texel_bytes
+from softshadow.pipeline.commands import DefineImage, Draw, UpdateImage, texel_bytes
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
@@ -47,7 +47,7 @@ class LateDraws:
         self.draws: list[LateDraw | MovedDraw] = []
         self.earlier: dict[tuple[int, int, int, tuple[int, ...]], Draw] = {}
         self.forms: dict[tuple[Hashable, ...], LateForm] = {}
-        self._texels: list[tuple[int, UpdateImage]] = []  # with the number of draws before
+        self._texels: list[tuple[int, DefineImage | UpdateImage]] = []  # with the number of draws before
         self._n_numbers, self._n_bytes = 0, 0
 
     def keep_form(self, key: tuple[Hashable, ...], form: LateForm) -> None:
@@ -62,7 +62,7 @@ class LateDraws:
         self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
         return self._n_numbers >= MOST_NUMBERS or bool(self._texels and _is_stippled(draw))
 
-    def add_texels(self, command: UpdateImage) -> bool:
+    def add_texels(self, command: DefineImage | UpdateImage) -> bool:
         """Let new texels wait behind the draws, of which there are some; return False if that does not pay."""
         if command.blocks is not None or len(self._texels) == MOST_UPDATES:
             return False

@@ -124,7 +124,7 @@ class DrawQueue:
         self,
         parts: Sequence[Sequence[Draw]],
         turns: Sequence[tuple[int, int]],
-        texels: Sequence[UpdateImage] = (),
+        texels: Sequence[DefineImage | UpdateImage] = (),
     ) -> bool:
         """Let small draws wait; return False, and do nothing, if they must be looked at one by one.
 

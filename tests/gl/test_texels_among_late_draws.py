@@ -9,7 +9,7 @@ from softshadow import gl
 from softshadow.context import late_draws
 from softshadow.gl import pair_numbers
 from softshadow.pipeline import queue, use_short_cuts
-from softshadow.pipeline.commands import Command, Draw, UpdateImage
+from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage
 
 SIZE, SIDE = (24, 16), 4
 TEXTURES = 1, 2, 3
@@ -20,6 +20,12 @@ def update(texture: int, value: int, side: int = SIDE, corner: int = 0) -> None:
     gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
     texels = np.full((side, side, 4), value, np.uint8)
     gl.glTexSubImage2D(gl.GL_TEXTURE_2D, 0, corner, corner, side, side, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
+
+
+def define(texture: int, value: int, side: int = SIDE) -> None:
+    gl.glBindTexture(gl.GL_TEXTURE_2D, texture)
+    texels = np.full((side, side, 4), value, np.uint8)
+    gl.glTexImage2D(gl.GL_TEXTURE_2D, 0, gl.GL_RGBA, side, side, 0, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, texels)
 
 
 def quad(left: float, mode: int = gl.GL_QUADS) -> None:
@@ -88,6 +94,19 @@ def test_they_wait_in_their_place(context):
         assert waiting(context) == number + 1
     assert kinds(context, 7) == [Draw, UpdateImage] * 3 + [Draw]
     assert colors(context, lefts) == [10, 60, 110, 160]
+
+
+def test_so_does_an_image_of_the_same_shape(context):
+    lefts = [-1.0, -0.5, 0.0]
+    for number, left in enumerate(lefts):
+        define(1, 50 * number + 10)
+        quad(left)
+        assert waiting(context) == number + 1
+    define(1, 200, side=2)
+    assert waiting(context) == 0
+    quad(0.5)
+    assert kinds(context, 7) == [Draw, DefineImage] * 3 + [Draw]
+    assert colors(context, [*lefts, 0.5]) == [10, 60, 110, 200]
 
 
 def test_several_come_one_after_the_other(context):
@@ -228,6 +247,7 @@ def random_program(random: Random) -> list[tuple]:
                         (draw_to, random.randrange(2)),
                         (gl.glCopyTexSubImage2D, gl.GL_TEXTURE_2D, 0, 0, 0, 3, 3, 2, 2),
                         (gl.glGenerateMipmap, gl.GL_TEXTURE_2D),
+                        (define, random.choice(TEXTURES), random.randrange(256), random.choice([SIDE, SIDE, 2])),
                         (gl.glClear, gl.GL_COLOR_BUFFER_BIT),
                         (gl.glReadPixels, 1, 1, 1, 1, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE),
                         (gl.glBeginConditionalRender, 1, gl.GL_QUERY_WAIT),
