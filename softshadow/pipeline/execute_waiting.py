@@ -64,7 +64,8 @@ def execute_waiting(batches: Mapping[int, DrawList], commands: Sequence[Segment 
         for command in commands:
             if isinstance(command, Segment):
                 part = parts[id(command)]
-                group = _draw_segment(command, part, group, storage) if part.end > part.first else group
+                if part.end > part.first:
+                    group = _draw_segment(command, part, group, storage, len(commands) == 1)
                 continue
             if group and not (isinstance(command, UpdateImage | DefineImage) and group.keeps(command.texture)):
                 group.draw()
@@ -92,10 +93,11 @@ def _parts_of(segments: Sequence[Segment], batches: Mapping[int, DrawList], stor
     return parts
 
 
-def _draw_segment(segment: Segment, part: Part, group: Group | None, storage: Storage) -> Group | None:
+def _draw_segment(segment: Segment, part: Part, group: Group | None, storage: Storage, is_alone: bool) -> Group | None:
     """Draw the triangles of a segment, or add them to a group, which may be a new one; return the group.
 
-    The draws of a group that has been drawn, or could not take them, come first.
+    The draws of a group that has been drawn, or could not take them, come first. A segment that `is_alone` needs no
+    group.
     """
     plan, command, query = segment.kind.plan, segment.command, segment.query
     state, target = command.state, storage.framebuffers[command.state.draw_framebuffer]
@@ -106,7 +108,7 @@ def _draw_segment(segment: Segment, part: Part, group: Group | None, storage: St
         if not segment.kind.counting:
             segment.kind.counting.append(plan_draw(command, target, counts))
         (plan,) = segment.kind.counting
-    numbers = joins_others(plan, state, target, part)
+    numbers = None if is_alone else joins_others(plan, state, target, part)
     if numbers is None:
         if group:
             group.draw()

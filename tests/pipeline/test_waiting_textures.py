@@ -8,6 +8,7 @@ import pytest
 
 from pipeline.small_draws import SIZE, draw_triangle, load_texture
 from softshadow import context, gl
+from softshadow.context import late_draws
 from softshadow.pipeline import queue
 
 
@@ -60,6 +61,7 @@ def test_new_texels_of_a_texture_in_use_wait(batches, side, is_whole):
 
 def test_texels_that_wait_are_bounded(batches, monkeypatch):
     monkeypatch.setattr(queue, "MOST_BYTES", 50)
+    monkeypatch.setattr(late_draws, "MOST_BYTES", 16)
     gl.create_context(SIZE, SIZE)
     gl.glEnable(gl.GL_TEXTURE_2D)
     for n in range(7):  # 16 bytes each
