@@ -30,7 +30,8 @@ class CollectedText(Protocol):
 class CommandStream:
     """Carries out and records the commands of a context, in the order of its calls.
 
-    Small draws are late at first: their arrays are made when there are many of them, or when another command comes.
+    Small draws are late at first: their arrays are made when there are many of them, or when another command comes than
+    new texels.
     Then most draws wait in a queue, until someone looks at the buffers.
 
     Parameters
