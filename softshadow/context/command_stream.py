@@ -12,12 +12,11 @@ from softshadow.context.line_pattern import LinePattern
 from softshadow.context.precision import Precision
 from softshadow.context.recording import Frame
 from softshadow.framebuffer import Storage, default_framebuffer
-from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, DefineImage, Draw, UpdateImage
+from softshadow.pipeline.commands import OF_FRAMEBUFFERS, Command, Draw
 from softshadow.pipeline.draw_kinds import changes_cells_only
 from softshadow.pipeline.execute import execute
+from softshadow.pipeline.new_texels import NewTexels
 from softshadow.pipeline.queue import DrawQueue
-
-WITH_TEXELS = DefineImage, UpdateImage
 
 
 class CollectedText(Protocol):
@@ -67,7 +66,7 @@ class CommandStream:
         if self.text is not None:
             self.draw_text()
         if self.late.draws:
-            if isinstance(command, WITH_TEXELS) and self._add_texels(command):
+            if isinstance(command, NewTexels) and self._add_texels(command):
                 return
             self.draw_late()
         if self.gate is not None and not self.gate(command):
@@ -140,7 +139,7 @@ class CommandStream:
         if self.late.add(draw):
             self.draw_late()
 
-    def _add_texels(self, command: DefineImage | UpdateImage) -> bool:
+    def _add_texels(self, command: NewTexels) -> bool:
         """Let new texels wait among late draws; return False if they must be carried out."""
         return self.gate is None and changes_cells_only(command, self.objects) and self.late.add_texels(command)
 

@@ -14,10 +14,11 @@ import numpy as np
 from softshadow.context.arrays import SLOTS, TEXCOORD
 from softshadow.context.late_forms import LateDraw, MovedDraw, matrices_of
 from softshadow.context.precision import Precision
-from softshadow.pipeline.alike_draws import TEXELS, AlikeDraws, each_of
+from softshadow.pipeline.alike_draws import AlikeDraws, each_of
 from softshadow.pipeline.alike_vertices import Attribute, GivenVertices, JoinedVertices
-from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices, moved_draws
+from softshadow.pipeline.commands import Command, Draw, Vertices, moved_draws
 from softshadow.pipeline.geometry.separate import separated
+from softshadow.pipeline.new_texels import TEXELS, NewTexels, texel_arrays
 
 MANY = 24  # draws that are alike: to handle arrays of fewer takes longer than to make these draws
 
@@ -30,8 +31,7 @@ class LateCommands(Collection[Command]):
     draws : sequence         of LateDraw and MovedDraw
     keys : sequence of int   those of draws that are alike are equal
     precision : Precision    makes the arrays
-    texels : sequence        of (number of draws before, DefineImage or UpdateImage), in their order; there is a draw
-                             before the first
+    texels : sequence        of (number of draws before, NewTexels), in their order; there is a draw before the first
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class LateCommands(Collection[Command]):
         draws: Sequence[LateDraw | MovedDraw],
         keys: Sequence[int],
         precision: Precision,
-        texels: Sequence[tuple[int, DefineImage | UpdateImage]] = (),
+        texels: Sequence[tuple[int, NewTexels]] = (),
     ) -> None:
         self._joined: list[JoinedVertices] = []
         self.vertices: list[Vertices] = []
@@ -70,14 +70,14 @@ class LateCommands(Collection[Command]):
             self.turns += [(numbers[key], len(list(same))) for key, same in groupby(keys[start:end])]
             self.turns.append((TEXELS, 1))
             start = end
-        self.turns.pop()  # no texels follow the last draws
+        self.turns.pop()  # none are left behind the last draws
         self.parts = self._parts(alike, precision)
 
     @property
     def arrays(self) -> list[np.ndarray]:
         """The arrays of pairs, and new texels."""
-        texels = [array for each in self.texels for array in (each.cells, each.stencil) if array is not None]
-        return [array for vertices in self._joined for array in vertices.arrays] + texels
+        texels = chain.from_iterable(map(texel_arrays, self.texels))
+        return [*[array for vertices in self._joined for array in vertices.arrays], *texels]
 
     def __len__(self) -> int:
         return sum([count for _, count in self.turns])

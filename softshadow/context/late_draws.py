@@ -13,7 +13,8 @@ from itertools import groupby
 from softshadow.context.late_commands import LateCommands
 from softshadow.context.late_forms import LateDraw, LateForm, MovedDraw
 from softshadow.context.precision import Precision
-from softshadow.pipeline.commands import DefineImage, Draw, UpdateImage, texel_bytes
+from softshadow.pipeline.commands import Draw
+from softshadow.pipeline.new_texels import NewTexels, texel_bytes
 
 # a draw that is kept for comparisons keeps the memory of all that waited with it
 MOST_NUMBERS = 2048  # of positions
@@ -47,7 +48,7 @@ class LateDraws:
         self.draws: list[LateDraw | MovedDraw] = []
         self.earlier: dict[tuple[int, int, int, tuple[int, ...]], Draw] = {}
         self.forms: dict[tuple[Hashable, ...], LateForm] = {}
-        self._texels: list[tuple[int, DefineImage | UpdateImage]] = []  # with the number of draws before
+        self._texels: list[tuple[int, NewTexels]] = []  # with the number of draws before
         self._n_numbers, self._n_bytes = 0, 0
 
     def keep_form(self, key: tuple[Hashable, ...], form: LateForm) -> None:
@@ -57,18 +58,17 @@ class LateDraws:
         self.forms[key] = form
 
     def add(self, draw: LateDraw | MovedDraw) -> bool:
-        """Let a draw wait; return whether to take all: many wait, or this one's pattern goes on behind texels."""
+        """Let a draw wait; return whether so many wait that they should be taken."""
         self.draws.append(draw)
         self._n_numbers += draw.n_numbers if type(draw) is LateDraw else MOVED_NUMBERS
-        return self._n_numbers >= MOST_NUMBERS or bool(self._texels and _is_stippled(draw))
+        return self._n_numbers >= MOST_NUMBERS
 
-    def add_texels(self, command: DefineImage | UpdateImage) -> bool:
+    def add_texels(self, command: NewTexels) -> bool:
         """Let new texels wait behind the draws, of which there are some; return False if that does not pay."""
         if command.blocks is not None or len(self._texels) == MOST_UPDATES:
             return False
-        before = self._texels[-1][0] if self._texels else 0
         n_bytes = self._n_bytes + texel_bytes(command)
-        if n_bytes > MOST_BYTES or any(map(_is_stippled, self.draws[before:])):
+        if n_bytes > MOST_BYTES:
             return False
         self._texels.append((len(self.draws), command))
         self._n_bytes = n_bytes
@@ -79,13 +79,13 @@ class LateDraws:
         draws, texels, self.draws, self._texels = self.draws, self._texels, [], []
         self._n_numbers, self._n_bytes = 0, 0
         keys = [id(draw[0]) for draw in draws]  # of their form, or of the draw that they are like
-        if texels and _is_stippled(draws[-1]):
-            yield LateCommands(draws[:-1], keys[:-1], self._precision, texels)
-            draws, keys, texels = draws[-1:], keys[-1:], []
         if not any(map(_is_stippled, dict(zip(keys, draws, strict=True)).values())):
             if draws:
                 yield LateCommands(draws, keys, self._precision, texels)
             return
-        for _, same in groupby(zip(draws, keys, strict=True), lambda each: _is_stippled(each[0])):
-            own, own_keys = zip(*same, strict=True)
-            yield LateCommands(own, own_keys, self._precision)
+        start = 0
+        for _, same in groupby(draws, _is_stippled):
+            end = start + len(list(same))
+            own = [(n_before - start, command) for n_before, command in texels if start < n_before <= end]
+            yield LateCommands(draws[start:end], keys[start:end], self._precision, own)
+            start = end

@@ -19,6 +19,7 @@ from softshadow.errors import HistoryCut
 from softshadow.framebuffer import Framebuffer, Storage, default_framebuffer
 from softshadow.image import Image
 from softshadow.pipeline.commands import Command, DefineImage, Draw, UpdateImage, Vertices
+from softshadow.pipeline.new_texels import texel_arrays
 
 COMMAND_BYTES = 1300  # of a command without its arrays: about this much for a draw with two matrices and a new state
 # of a vertex at most: position, two colours, normal, eight texture coordinates, fog, materials, in float64; edge flag
@@ -52,9 +53,8 @@ class Contents:
             if command.joined_positions is not None:  # type: ignore[union-attr]
                 self._add_array(command.joined_positions)  # type: ignore[union-attr]
         elif kind is DefineImage or kind is UpdateImage:
-            for array in (command.cells, command.stencil):  # type: ignore[union-attr]
-                if array is not None:
-                    self._add_array(array)
+            for array in texel_arrays(command):  # type: ignore[arg-type]
+                self._add_array(array)
 
     def add_late(self, draws: LateCommands) -> None:
         """Count draws that may not be made yet."""

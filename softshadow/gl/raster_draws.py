@@ -74,6 +74,7 @@ def corners(x0: float, y0: float, x1: float, y1: float, size: tuple[int, int], r
     are_whole = x0.is_integer() and y0.is_integer() and x1.is_integer() and y1.is_integer()
     if not (are_whole and low >= -MARGIN and high <= MARGIN):
         return positions(np.array([[x0, y0, x1, y1]], np.float32), size, real)
+    # as `near_positions`, which would take 4 us longer for arrays of four numbers
     left, right, bottom, top = int(x0) + MARGIN, int(x1) + MARGIN, int(y0) + MARGIN, int(y1) + MARGIN
     x, y = _coordinates(size[0], real), _coordinates(size[1], real)
     position = np.zeros((4, 4), real)

@@ -101,7 +101,7 @@ def _shown_at(context: Context, x: float, y: float, width: int, height: int) -> 
         return None
     if not (1 <= abs(zoom_x) <= LARGEST_ZOOM and 1 <= abs(zoom_y) <= LARGEST_ZOOM):
         return None
-    if max(abs(x), abs(y), width, height) > LARGEST_SIDE or x != x or y != y:
+    if not (abs(x) <= LARGEST_SIDE and abs(y) <= LARGEST_SIDE and max(width, height) <= LARGEST_SIDE):
         return None
     return int(x), int(y), int(zoom_x), int(zoom_y)
 

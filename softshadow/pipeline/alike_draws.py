@@ -17,8 +17,6 @@ import numpy as np
 from softshadow.pipeline.alike_vertices import GivenVertices, JoinedVertices
 from softshadow.pipeline.commands import Draw, moved_draws
 
-TEXELS = -1  # in place of the number of a part of such draws: new texels of a texture come there
-
 
 class AlikeDraws(Sequence[Draw]):
     """Draws that differ from `like` in vertices, indices and modelview matrix, and from each other in nothing else.

@@ -239,11 +239,6 @@ class UpdateImage:
     blocks: np.ndarray | None = None
 
 
-def texel_bytes(command: DefineImage | UpdateImage) -> int:
-    """Return how many bytes new texels take."""
-    return sum([array.nbytes for array in (command.cells, command.stencil) if array is not None])
-
-
 @dataclass(frozen=True, eq=False)
 class CopyToTexture:
     """glCopyTexSubImage from a framebuffer; pixels outside the framebuffer leave their texels untouched.

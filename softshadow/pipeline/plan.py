@@ -136,11 +136,11 @@ def plan_draw(command: Draw, target: Framebuffer, counts: FragmentCounts | None 
     if not short_cuts.get():
         path.note("short cuts are off")
         return plan
-    if command.shown_at is not None and counts is None and not (in_order or is_special):
-        if writes_color and is_shown(command, target, front):
-            path.fill, path.shading = "rectangle", "copy of the texels"
-            path.note("each pixel shows its texel, and only the scissor box tests it")
-            return plan._replace(show_rectangle=show_rectangle)
+    is_plain = counts is None and not (in_order or is_special)
+    if command.shown_at is not None and is_plain and writes_color and is_shown(command, target, front):
+        path.fill, path.shading = "rectangle", "copy of the texels"
+        path.note("each pixel shows its texel, and only the scissor box tests it")
+        return plan._replace(show_rectangle=show_rectangle)
     front, back = without_equal_writes(front), without_equal_writes(back)
     plan = plan._replace(front=front, back=back)
     if counts is not None:

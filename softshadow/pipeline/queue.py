@@ -14,7 +14,7 @@ from itertools import islice, takewhile
 
 from softshadow import tokens as gl
 from softshadow.framebuffer import DEFAULT, Storage
-from softshadow.pipeline.alike_draws import TEXELS, DrawList, vertex_counts
+from softshadow.pipeline.alike_draws import DrawList, vertex_counts
 from softshadow.pipeline.commands import (
     OF_FRAMEBUFFERS,
     Accumulate,
@@ -30,11 +30,11 @@ from softshadow.pipeline.commands import (
     GenerateMipmaps,
     SetSampler,
     UpdateImage,
-    texel_bytes,
 )
 from softshadow.pipeline.draw_kinds import Kind, Kinds
 from softshadow.pipeline.execute import execute
 from softshadow.pipeline.execute_waiting import Segment, execute_waiting
+from softshadow.pipeline.new_texels import TEXELS, NewTexels, texel_bytes
 from softshadow.pipeline.plan import MOST_DRAWS, MOST_VERTICES, SHORT_CUTS_EXIST
 from softshadow.state import State
 
@@ -124,7 +124,7 @@ class DrawQueue:
         self,
         parts: Sequence[Sequence[Draw]],
         turns: Sequence[tuple[int, int]],
-        texels: Sequence[DefineImage | UpdateImage] = (),
+        texels: Sequence[NewTexels] = (),
     ) -> bool:
         """Let small draws wait; return False, and do nothing, if they must be looked at one by one.
 
@@ -276,7 +276,7 @@ class DrawQueue:
         self._append(command)
         return True
 
-    def _add_texels(self, command: DefineImage | UpdateImage) -> bool:
+    def _add_texels(self, command: NewTexels) -> bool:
         """Let new texels wait behind draws that may use the texture; return False if none waits."""
         if not self._may_use(command.texture):
             return False

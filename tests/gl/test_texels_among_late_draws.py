@@ -165,11 +165,15 @@ def test_many_do_not_wait(context, monkeypatch, limit):
     assert colors(context, [-1.0, 0.0]) == [40, 91]
 
 
-def test_none_wait_behind_a_pattern_that_goes_on(context):
+def test_a_pattern_goes_on_over_them(context):
     gl.glEnable(gl.GL_LINE_STIPPLE)
-    quad(-1.0, gl.GL_LINE_LOOP)
-    update(1, 90)
-    assert waiting(context) == 0
+    for left in (-0.25, -2.0):  # the first line of the second strip is outside
+        quad(left, gl.GL_LINE_STRIP)
+        update(1, 90)
+    assert waiting(context) == 2
+    assert kinds(context, 4) == [Draw, UpdateImage] * 2
+    strips = context.frame.commands[-4::2]
+    assert [strip.stipple_place > 0 for strip in strips] == [False, True]
 
 
 def test_a_pattern_behind_them_goes_on(context):
